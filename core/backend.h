@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/flake.h"
+#include "core/view.h"
+#include "core/vec.h"
+
+namespace spindrift
+{
+
+/// Everything that a run can be continued from: with the same World it gives the same states, bit for bit.
+struct Snapshot
+{
+    std::uint64_t world_hash = 0;  ///< of the World that it belongs to
+    std::uint64_t step = 0;
+    std::uint64_t next_id = 0;
+    FlakeCounts counts;
+    std::vector<std::uint64_t> emitter_state;       ///< backend-neutral, see cpu/emission
+    std::vector<std::vector<std::uint32_t>> arrays;  ///< the eleven arrays of FlakeView as bits, alive flakes only
+};
+
+/// Which flakes to draw and in which order.
+struct DrawList
+{
+    bool in_scratch = false;  ///< the sorted pairs lie in DrawListView::scratch, not in ::pairs
+    std::uint64_t count = 0;
+    std::uint64_t culled = 0;  ///< alive but outside the view
+    bool sorted = false;
+};
+
+/// Milliseconds of the newest call, by stage.
+struct StageTimes
+{
+    double emit = 0, advect = 0, compact = 0, cull = 0, sort = 0;
+};
+
+struct SortSettings
+{
+    std::string strategy = "radix";  ///< a name from the backend's table
+    int depth_bits = 32;             ///< 32, 24 or 16
+};
+
+/// Moves and orders the flakes of one World. Implementations: cpu::CpuBackend; a CUDA one comes beside it.
+class Backend
+{
+  public:
+    virtual ~Backend() = default;
+
+    virtual std::string name() const = 0;  ///< "cpu (avx512, 2 threads)"
+
+    /// Advances by one step of World::step_s: emission, wind, turbulence, settling, contacts, borders.
+    virtual void step() = 0;
+
+    /// Fills the draw list: culls against the view, makes depth keys, sorts far to near. Equal keys order by id.
+    /// Throws Error for a strategy that this backend has not got.
+    virtual DrawList prepare(const View& view, const SortSettings& sort) = 0;
+
+    virtual FlakeCounts counts() const = 0;
+    virtual std::uint64_t step_number() const = 0;
+    virtual std::uint64_t slots_used() const = 0;  ///< holes included
+
+    /// Order-independent 64-bit hash of every alive flake's state and of the counts.
+    virtual std::uint64_t state_hash() const = 0;
+
+    virtual Snapshot save() const = 0;
+    /// Throws Error if the snapshot belongs to another World or does not fit.
+    virtual void restore(const Snapshot& snapshot) = 0;
+
+    virtual StageTimes times() const = 0;
+};
+
+}  // namespace spindrift

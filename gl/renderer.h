@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/backend.h"
+#include "core/view.h"
+#include "core/world.h"
+#include "gl/flake_buffers.h"
+#include "gl/frame_plan.h"
+#include "image/image.h"
+#include "scene/mesh.h"
+#include "scene/scene.h"
+
+namespace spindrift::gl
+{
+
+struct PassTime
+{
+    std::string name;
+    double ms;
+};
+
+/// Draws a scene and its flakes into an RGBA16F target, then tone-maps to 8 bit. Needs a current context.
+class Renderer
+{
+  public:
+    Renderer(const scene::Scene& scene, const scene::Geometry& geometry, const World& world,
+             const FlakeBuffers& buffers, int width_px, int height_px);
+    ~Renderer();
+
+    /// `time_s` is the moment at which the frame is shown. Passes of the plan that do not run are not touched.
+    void draw(const FramePlan& plan, const View& view, const DrawList& flakes, double time_s);
+
+    void resize(int width_px, int height_px);
+    image::Image read_linear() const;    ///< the float target, rows from the top
+    image::Image8 read_display() const;  ///< after tone curve and sRGB
+    void present(int framebuffer_width, int framebuffer_height);  ///< to the window's back buffer
+
+    /// GPU times of the last frame that is complete, by pass (GL timer queries); empty before the first.
+    std::vector<PassTime> times() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace spindrift::gl

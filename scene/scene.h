@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/vec.h"
+#include "core/world.h"
+
+namespace spindrift::scene
+{
+
+// A scene as its file states it, validated, immutable afterwards. Lengths are metres in the world frame of the file
+// (z up); directions of wind follow the meteorological habit (where it blows FROM, degrees clockwise from north = +y).
+// docs/scenes.md lists every key with unit, range and default.
+
+/// Linear scene-referred colour, Rec.709 primaries.
+struct Colour
+{
+    float r = 1, g = 1, b = 1;
+};
+
+struct DomainSettings
+{
+    Vec3d min_m{0, 0, 0};
+    Vec3d max_m{0, 0, 0};
+    OnLeave on_leave = OnLeave::respawn;
+};
+
+enum class WindSource
+{
+    calm,
+    uniform,
+    logarithmic,
+    file,  ///< QES-Winds windsWk and turbOut
+};
+
+struct WindSettings
+{
+    WindSource source = WindSource::calm;
+    double speed_m_s = 0;
+    double from_direction_deg = 270;
+    double vertical_m_s = 0;
+    double reference_height_m = 10;     ///< at which speed_m_s holds (logarithmic)
+    double roughness_m = 0.1;
+    double friction_velocity_m_s = 0;   ///< > 0: given instead of speed_m_s
+    double boundary_layer_m = 1000;
+    bool turbulence = true;             ///< surface-layer closure, or the turbulence file
+    bool around_solids = false;  ///< logarithmic: put on a grid and made divergence-free round the solids
+    double cell_m = 2;           ///< of that grid
+    std::filesystem::path winds_file, turbulence_file;  ///< source = file; turbulence_file may be empty
+};
+
+struct EmitterSettings
+{
+    Emitter emitter;         ///< positions still in the world frame
+    std::string follows;     ///< sky: "" fixed, "camera", or the name of a vehicle
+};
+
+enum class GroundKind
+{
+    none,
+    plane,
+    height_field,
+};
+
+struct GroundSettings
+{
+    GroundKind kind = GroundKind::plane;
+    double height_m = 0;  ///< plane; datum of a height field
+    std::filesystem::path file;  ///< height field: grey PNG (8 or 16 bit), spans the domain in x and y
+    double relief_m = 1;         ///< height of its white above its black
+    Surface surface;
+    Colour albedo{0.75F, 0.77F, 0.80F};
+};
+
+struct BoxSettings
+{
+    Vec3d min_m{}, max_m{};
+    Surface surface;
+    Colour albedo{0.5F, 0.5F, 0.5F};
+    Colour emission{0, 0, 0};
+};
+
+struct ModelSettings
+{
+    std::filesystem::path file;
+    Vec3d position_m{};
+    double yaw_deg = 0;
+    double scale = 1;
+    bool y_up = true;    ///< the file's up axis is y (OBJ and glTF habit); else z
+    bool solid = true;   ///< flakes meet it
+    Surface surface;
+    std::string vehicle;  ///< not empty: drawn at the vehicle's place (and then never solid)
+};
+
+enum class LightKind : std::uint32_t
+{
+    point = 0,
+    spot = 1,
+    directional = 2,
+};
+
+/// The light table of the report (CTS 11-23, section 3.2.4).
+struct Light
+{
+    std::string name;
+    bool exists = true;
+    bool on = true;
+    LightKind kind = LightKind::point;
+    bool flashing = false;
+    double flash_rate_hz = 1;
+    double flash_duty = 0.5;   ///< share of the period that it is on, 0..1
+    double flash_phase = 0;    ///< share of the period by which it is ahead, 0..1
+    Vec3d position_m{};
+    Vec3d direction{0, 0, -1};  ///< unit; the way the light travels (spot, directional)
+    Colour intensity;           ///< point, spot: radiant intensity in W/sr; directional: irradiance in W/m2; HDR
+    double range_m = std::numeric_limits<double>::infinity();
+    double inner_cone_deg = 20, outer_cone_deg = 30;  ///< half angles
+    double g = 0.77;            ///< Henyey-Greenstein asymmetry of flakes in this light, in (-1, 1)
+    std::string vehicle;        ///< not empty: position and direction are relative to it
+};
+
+struct SkySettings
+{
+    Colour zenith{0.45F, 0.5F, 0.6F};
+    Colour horizon{0.75F, 0.78F, 0.8F};
+    Colour ambient{0.6F, 0.62F, 0.66F};  ///< irradiance / pi that reaches everything, once
+};
+
+struct CameraKey
+{
+    double time_s = 0;
+    Vec3d eye_m{}, look_at_m{};
+};
+
+struct CameraSettings
+{
+    std::vector<CameraKey> keys;  ///< ascending time, at least one; piecewise linear
+    double fov_y_deg = 50;
+    double near_m = 0.1, far_m = 1000;
+};
+
+struct VehicleSettings
+{
+    std::string name;
+    Anchor path;  ///< world frame
+};
+
+enum class Blending
+{
+    over,      ///< sorted, premultiplied over
+    additive,  ///< no sort
+    opaque,    ///< plain points with depth, no sort
+};
+
+enum class Sprite
+{
+    crystal,  ///< Gaussian transparency inside a grown crystal shape
+    point,    ///< plain opaque round point
+};
+
+struct RenderSettings
+{
+    int width_px = 1280, height_px = 720;
+    double frames_per_s = 30;
+    int frames = 90;
+    double warm_up_s = 0;  ///< simulated before the first frame
+    Blending blending = Blending::over;
+    Sprite sprite = Sprite::crystal;
+    std::string sort = "radix";
+    int depth_bits = 32;
+    double exposure = 1;
+    double flake_opacity = 0.9;  ///< at the centre of a flake, 0..1
+    double flake_scale = 1;      ///< drawn size over real size; light is kept by weight / scale^2
+};
+
+struct Scene
+{
+    std::filesystem::path file;  ///< it was read from; relative paths start at its folder
+    std::string name, about;
+    DomainSettings domain;
+    double step_s = 1.0 / 60.0;
+    std::uint64_t seed = 1;
+    std::uint64_t capacity = 0;
+    Snow snow;
+    WindSettings wind;
+    std::vector<EmitterSettings> emitters;
+    GroundSettings ground;
+    std::vector<BoxSettings> boxes;
+    std::vector<ModelSettings> models;
+    double voxel_m = 1;
+    std::vector<Light> lights;
+    SkySettings sky;
+    CameraSettings camera;
+    std::vector<VehicleSettings> vehicles;
+    RenderSettings render;
+};
+
+/// What a command line may change of a scene before it is validated.
+struct SceneOverrides
+{
+    std::optional<std::uint64_t> particles;  ///< capacity, and bursts and rates scaled with it
+    std::optional<std::uint64_t> seed;
+    std::optional<std::string> sort;
+    std::optional<int> width_px, height_px, frames;
+    std::optional<double> frames_per_s;
+    std::optional<std::filesystem::path> winds_file, turbulence_file;
+};
+
+/// Reads and validates a TOML scene. Throws Error: "file:line: key = value is wrong (why); what is allowed".
+Scene read_scene(const std::filesystem::path& file, const SceneOverrides& overrides = {});
+
+/// The same from text, for tests and the fuzzer; `name` stands for the file in messages.
+Scene parse_scene(std::string_view text, const std::filesystem::path& name, const SceneOverrides& overrides = {});
+
+}  // namespace spindrift::scene
