@@ -72,6 +72,10 @@ class Backend
     virtual void restore(const Snapshot& snapshot) = 0;
 
     virtual StageTimes times() const = 0;
+
+    /// From now on World::anchors[index] stands still at this place (local frame), whatever its keys say: for cameras and vehicles
+    /// that a person steers.
+    virtual void set_anchor(int index, Vec3f position_m) = 0;
 };
 
 }  // namespace spindrift
