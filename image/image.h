@@ -15,11 +15,23 @@ struct Image
 
     Image() = default;
     Image(int width_px, int height_px)
-        : width(width_px), height(height_px), rgba(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px) * 4)
+        : width(width_px),
+          height(height_px),
+          rgba(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px) * 4)
     {
     }
-    float* pixel(int x, int y) { return &rgba[(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * 4]; }
-    const float* pixel(int x, int y) const { return &rgba[(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * 4]; }
+    float* pixel(int x, int y)
+    {
+        return &rgba[(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                      static_cast<std::size_t>(x)) *
+                     4];
+    }
+    const float* pixel(int x, int y) const
+    {
+        return &rgba[(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                      static_cast<std::size_t>(x)) *
+                     4];
+    }
 };
 
 /// Display-referred sRGB, 8 bit RGB, rows from the top.

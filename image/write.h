@@ -11,7 +11,8 @@ namespace spindrift::image
 {
 
 // Every file is written aside and renamed when whole: a reader never sees half of one. All throw Error
-// with the path and the system's reason (unwritable folder, a directory in the way, disk full).
+// with the path and the system's reason (unwritable folder, a folder or device in the way, disk
+// full). Missing parent folders are made.
 
 void write_png(const std::filesystem::path& file, const Image8& image);
 /// Half-float linear RGBA, ZIP compressed.
@@ -23,8 +24,8 @@ Image read_exr(const std::filesystem::path& file);
 float srgb_encode(float linear);
 Image8 to_srgb8(const Image& display_linear);
 
-/// A run's pictures, by the output pattern: "x.mp4" (H.264 by an ffmpeg process), "x_%04d.png" or ".exr" (sequence; printf
-/// integer), "x.png" / "x.exr" (the last frame only).
+/// A run's pictures, by the output pattern: "x.mp4" (H.264 by an ffmpeg process), "x_%04d.png" or ".exr"
+/// (sequence; printf integer), "x.png" / "x.exr" (the last frame only).
 class FrameWriter
 {
   public:
@@ -35,6 +36,7 @@ class FrameWriter
     /// Completes the file(s) with what was added so far, also after an interrupt.
     virtual void finish() = 0;
 };
-std::unique_ptr<FrameWriter> make_frame_writer(const std::string& pattern, int width, int height, double frames_per_s);
+std::unique_ptr<FrameWriter> make_frame_writer(const std::string& pattern, int width, int height,
+                                               double frames_per_s);
 
 }  // namespace spindrift::image
