@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/flake.h"
-#include "core/view.h"
 #include "core/vec.h"
+#include "core/view.h"
 
 namespace spindrift
 {
@@ -20,8 +20,9 @@ struct Snapshot
     std::uint64_t step = 0;
     std::uint64_t next_id = 0;
     FlakeCounts counts;
-    std::vector<std::uint64_t> emitter_state;       ///< backend-neutral, see cpu/emission
-    std::vector<std::vector<std::uint32_t>> arrays;  ///< the eleven arrays of FlakeView as bits, alive flakes only
+    std::vector<std::uint64_t> emitter_state;  ///< backend-neutral, see cpu/emission
+    std::vector<std::vector<std::uint32_t>>
+        arrays;  ///< the eleven arrays of FlakeView as bits, alive flakes only
 };
 
 /// Which flakes to draw and in which order.
@@ -56,8 +57,8 @@ class Backend
     /// Advances by one step of World::step_s: emission, wind, turbulence, settling, contacts, borders.
     virtual void step() = 0;
 
-    /// Fills the draw list: culls against the view, makes depth keys, sorts far to near. Equal keys order by id.
-    /// Throws Error for a strategy that this backend has not got.
+    /// Fills the draw list: culls against the view, makes depth keys, sorts far to near. Equal keys order by
+    /// id. Throws Error for a strategy that this backend has not got.
     virtual DrawList prepare(const View& view, const SortSettings& sort) = 0;
 
     virtual FlakeCounts counts() const = 0;
@@ -73,8 +74,8 @@ class Backend
 
     virtual StageTimes times() const = 0;
 
-    /// From now on World::anchors[index] stands still at this place (local frame), whatever its keys say: for cameras and vehicles
-    /// that a person steers.
+    /// From now on World::anchors[index] stands still at this place (local frame), whatever its keys say: for
+    /// cameras and vehicles that a person steers.
     virtual void set_anchor(int index, Vec3f position_m) = 0;
 };
 

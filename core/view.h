@@ -6,7 +6,8 @@
 namespace spindrift
 {
 
-/// A pinhole camera in the local frame (m), as culling, depth keys, drawing and the reference renderer see it.
+/// A pinhole camera in the local frame (m), as culling, depth keys, drawing and the reference renderer see
+/// it.
 struct View
 {
     Vec3f eye{};
@@ -18,7 +19,8 @@ struct View
     int height_px = 720;
     float near_m = 0.1F;
     float far_m = 1000.0F;
-    /// Flakes whose centre is this many pixels outside the picture are still drawn, so that large sprites do not pop.
+    /// Flakes whose centre is this many pixels outside the picture are still drawn, so that large sprites do
+    /// not pop.
     float guard_px = 128.0F;
 };
 

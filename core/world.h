@@ -9,8 +9,8 @@
 namespace spindrift
 {
 
-// Everything that the flakes of a run meet, as plain data in the local frame (metres, seconds, z up, origin at the
-// lower corner of the domain). Made from a Scene once, then never changed.
+// Everything that the flakes of a run meet, as plain data in the local frame (metres, seconds, z up, origin
+// at the lower corner of the domain). Made from a Scene once, then never changed.
 
 /// What happens to a flake that crosses the border of the domain.
 enum class OnLeave : std::uint32_t
@@ -36,7 +36,7 @@ enum class EmitterShape : std::uint32_t
     sphere_volume,   ///< uniform in it
     plane,           ///< parallelogram: a + s (b - a) + t (c - a)
     box,             ///< axes-parallel, from `a` to `b`
-    sky,             ///< box of size `b` centred on `a`, or on a moving anchor; wraps; keeps `burst` flakes alive
+    sky,  ///< box of size `b` centred on `a`, or on a moving anchor; wraps; keeps `burst` flakes alive
 };
 
 struct Emitter
@@ -44,11 +44,11 @@ struct Emitter
     EmitterShape shape = EmitterShape::point;
     Vec3f a{}, b{}, c{};
     float radius_m = 0;
-    double rate_per_s = 0;    ///< drawn flakes per second; exact in the long run for any dt
-    std::uint64_t burst = 0;  ///< drawn flakes at t = 0
-    Vec3f velocity_m_s{};     ///< at emission, relative to the ground
+    double rate_per_s = 0;       ///< drawn flakes per second; exact in the long run for any dt
+    std::uint64_t burst = 0;     ///< drawn flakes at t = 0
+    Vec3f velocity_m_s{};        ///< at emission, relative to the ground
     bool at_rest_in_air = true;  ///< ignore velocity_m_s: start at the speed of the air plus settling
-    int anchor = -1;  ///< sky only: index of the moving anchor that it follows, -1: fixed
+    int anchor = -1;             ///< sky only: index of the moving anchor that it follows, -1: fixed
 };
 
 /// Size and fall speed of the flakes. PHYSICS: docs/physics.md "Flakes".
@@ -70,14 +70,16 @@ struct Snow
 {
     Crystal crystal = Crystal::dendrites;
     SizeSpectrum spectrum = SizeSpectrum::gunn_marshall;
-    float rate_mm_h = 1.0F;            ///< water equivalent
+    float rate_mm_h = 1.0F;              ///< water equivalent
     float fall_speed_spread_m_s = 0.1F;  ///< standard deviation between flakes of one size
-    float weight = 1.0F;  ///< real flakes that one drawn flake stands for; > 0; used wherever light is counted
+    float weight =
+        1.0F;  ///< real flakes that one drawn flake stands for; > 0; used wherever light is counted
 };
 
 /// One wind cell: four 16-byte records that a GPU reads whole. Sampled trilinearly between cell centres.
-/// S is the lower-triangular root of the stress tensor (u' = S q), div_s its divergence d_i S_ij per column j,
-/// rate_j = (C0 eps / 2) (S^-1 S^-T)_jj the relaxation rate of q_j (1/s), gradient the largest |dS/dx| (1/s).
+/// S is the lower-triangular root of the stress tensor (u' = S q), div_s its divergence d_i S_ij per column
+/// j, rate_j = (C0 eps / 2) (S^-1 S^-T)_jj the relaxation rate of q_j (1/s), gradient the largest |dS/dx|
+/// (1/s).
 struct alignas(64) WindCell
 {
     float u, v, w, gradient;
@@ -103,9 +105,9 @@ struct Wind
     // logarithmic profile with the neutral surface-layer closure (docs/physics.md "Wind")
     float friction_velocity_m_s = 0;
     float roughness_m = 0.1F;
-    float ground_m = 0;              ///< height of the ground in the local frame
-    float boundary_layer_m = 1000;   ///< zi
-    float to_x = 1, to_y = 0;        ///< unit vector along the wind
+    float ground_m = 0;             ///< height of the ground in the local frame
+    float boundary_layer_m = 1000;  ///< zi
+    float to_x = 1, to_y = 0;       ///< unit vector along the wind
 
     // grid
     int nx = 0, ny = 0, nz = 0;
@@ -114,8 +116,9 @@ struct Wind
     std::vector<WindCell> cells;  ///< x fastest, then y, then z
 };
 
-/// Occupancy of space for the cell-by-cell walk. `clearance` is the Chebyshev distance in cells to the nearest solid
-/// (0: solid, capped at 255): a flake in a cell of clearance c that moves at most (c - 1) cells per axis needs no walk.
+/// Occupancy of space for the cell-by-cell walk. `clearance` is the Chebyshev distance in cells to the
+/// nearest solid (0: solid, capped at 255): a flake in a cell of clearance c that moves at most (c - 1) cells
+/// per axis needs no walk.
 struct VoxelGrid
 {
     int nx = 0, ny = 0, nz = 0;  ///< 0: nothing solid but the ground
