@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "cpu/sort/counting_pass.h"
+#include "cpu/sort/histogram_pool.h"
+#include "cpu/sort/strategy.h"
+
+namespace spindrift::cpu::sorts
+{
+
+namespace
+{
+
+constexpr Digit kWholeKey{.shift = 32, .bits = 16};
+constexpr std::size_t kShortestChunk = 65536;  // a shorter one spends its time on its 65 536 counters
+constexpr std::size_t kMostChunks = 16;        // 256 KiB of counters each
+
+std::uint64_t* sort(const SortJob& job)
+{
+    if (job.n < 2) return job.pairs;
+    const Chunks chunks(job.n, kShortestChunk, kMostChunks);
+    const HistogramLease lease(chunks.count() * kWholeKey.values());
+    if ((count_digit(job.pairs, chunks, kWholeKey, lease.counters()) >> 32) == 0) return job.pairs;
+    counts_to_places(chunks, kWholeKey, lease.counters());
+    scatter_by_digit(job.pairs, job.scratch, chunks, kWholeKey, lease.counters());
+    return job.scratch;
+}
+
+}  // namespace
+
+SortStrategy counting16()
+{
+    return {.name = "counting16",
+            .about = "one counting pass over 16-bit depth keys, all threads",
+            .sort = sort,
+            .max_key_bits = 16,
+            .bytes_moved_per_pair_32 = 24};  // read to count, read and write to move
+}
+
+}  // namespace spindrift::cpu::sorts

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <utility>
+
+#include "cpu/sort/counting_pass.h"
+#include "cpu/sort/histogram_pool.h"
+#include "cpu/sort/strategy.h"
+
+// Least significant digit first: each pass keeps the order that the passes before it made, so the whole is
+// stable. The choice of digits is measured in docs/decisions/003-radix-sort.md.
+
+namespace spindrift::cpu::sorts
+{
+
+namespace
+{
+
+constexpr int kKeyShift = 32;
+constexpr std::size_t kShortestChunk = 4096;
+constexpr std::size_t kMostChunks = 64;
+
+/// The passes over key bits [low, high): as few as the widest digit allows, of even width.
+class Plan
+{
+  public:
+    Plan(int low, int high, int widest)
+    {
+        count_ = (high - low + widest - 1) / widest;
+        for (int pass = 0, at = low; pass < count_; ++pass)
+        {
+            const int passes_left = count_ - pass;
+            const int bits = (high - at + passes_left - 1) / passes_left;
+            digits_[static_cast<std::size_t>(pass)] = {.shift = kKeyShift + at, .bits = bits};
+            at += bits;
+        }
+    }
+
+    std::size_t count() const { return static_cast<std::size_t>(count_); }
+    Digit operator[](std::size_t pass) const { return digits_[pass]; }
+
+  private:
+    std::array<Digit, 4> digits_{};  // widest >= 8
+    int count_ = 0;
+};
+
+// Wide digits save passes while their lines of output (one per value and thread) and the pages behind them
+// stay in the caches.
+int widest_digit_bits(std::size_t n)
+{
+    constexpr std::size_t kFewPairs = 4096;
+    constexpr std::size_t kManyPairs = std::size_t{3} << 20;
+    return n < kFewPairs || n > kManyPairs ? 8 : 12;
+}
+
+void insertion_sort(std::uint64_t* pairs, std::size_t n)
+{
+    for (std::size_t i = 1; i < n; ++i)
+    {
+        const std::uint64_t pair = pairs[i];
+        std::size_t at = i;
+        for (; at > 0 && (pairs[at - 1] >> kKeyShift) > (pair >> kKeyShift); --at) pairs[at] = pairs[at - 1];
+        pairs[at] = pair;
+    }
+}
+
+std::uint64_t* sort(const SortJob& job)
+{
+    constexpr std::size_t kTiny = 64;
+    if (job.n < kTiny)
+    {
+        insertion_sort(job.pairs, job.n);
+        return job.pairs;
+    }
+    const int widest = widest_digit_bits(job.n);
+    const Chunks chunks(job.n, kShortestChunk, kMostChunks);
+    const HistogramLease lease(chunks.count() << widest);
+    std::uint32_t* const counters = lease.counters();
+
+    // The first count also finds the bits in which keys differ; only those need passes.
+    Plan plan(0, job.key_bits, widest);
+    const std::uint64_t differing = count_digit(job.pairs, chunks, plan[0], counters) >> kKeyShift;
+    if (differing == 0) return job.pairs;
+    const Plan tight(std::countr_zero(differing), static_cast<int>(std::bit_width(differing)), widest);
+    bool counted = tight.count() >= plan.count();
+    if (!counted) plan = tight;
+
+    std::uint64_t* from = job.pairs;
+    std::uint64_t* to = job.scratch;
+    for (std::size_t pass = 0; pass < plan.count(); ++pass)
+    {
+        const Digit digit = plan[pass];
+        const bool constant = digit.of(differing << kKeyShift) == 0;
+        if (!constant)
+        {
+            if (!counted) count_digit(from, chunks, digit, counters);
+            counts_to_places(chunks, digit, counters);
+            scatter_by_digit(from, to, chunks, digit, counters);
+            std::swap(from, to);
+        }
+        counted = false;
+    }
+    return from;
+}
+
+}  // namespace
+
+SortStrategy radix()
+{
+    return {
+        .name = "radix",
+        .about = "our own stable radix sort, least significant digit first, all threads",
+        .sort = sort,
+        .max_key_bits = 32,
+        .bytes_moved_per_pair_32 = 8 + 3 * 16};  // one read to count, then three passes that read and write
+}
+
+}  // namespace spindrift::cpu::sorts
