@@ -18,7 +18,7 @@ std::uint64_t* sort(const SortJob& job)
     if (job.n < 2) return job.pairs;
     const Chunks chunks(job.n, kShortestChunk, kMostChunks);
     const HistogramLease lease(chunks.count() * kWholeKey.values());
-    if ((count_digit(job.pairs, chunks, kWholeKey, lease.counters()) >> 32) == 0) return job.pairs;
+    count_digit(job.pairs, chunks, kWholeKey, lease.counters());
     counts_to_places(chunks, kWholeKey, lease.counters());
     scatter_by_digit(job.pairs, job.scratch, chunks, kWholeKey, lease.counters());
     return job.scratch;

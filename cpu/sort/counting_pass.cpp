@@ -22,17 +22,25 @@ struct alignas(64) OwnLine  // so that threads do not write to one cache line
     std::uint64_t bits = 0;
 };
 
-std::uint64_t count_run(const std::uint64_t* first, const std::uint64_t* last, std::uint64_t sample,
-                        Digit digit, std::uint32_t* histogram)
+void count_run(const std::uint64_t* first, const std::uint64_t* last, Digit digit, std::uint32_t* histogram)
 {
     std::fill_n(histogram, digit.values(), 0U);
-    std::uint64_t differing = 0;
-    for (; first != last; ++first)
+    for (; last - first >= 4; first += 4)
     {
-        const std::uint64_t pair = *first;
-        differing |= pair ^ sample;
-        ++histogram[digit.of(pair)];
+        const std::uint64_t a = first[0], b = first[1], c = first[2], d = first[3];
+        ++histogram[digit.of(a)];
+        ++histogram[digit.of(b)];
+        ++histogram[digit.of(c)];
+        ++histogram[digit.of(d)];
     }
+    for (; first != last; ++first) ++histogram[digit.of(*first)];
+}
+
+std::uint64_t differing_bits_of_run(const std::uint64_t* first, const std::uint64_t* last,
+                                    std::uint64_t sample)
+{
+    std::uint64_t differing = 0;
+    for (; first != last; ++first) differing |= *first ^ sample;
     return differing;
 }
 
@@ -111,21 +119,29 @@ Chunks::Chunks(std::size_t n, std::size_t shortest, std::size_t most)
 {
 }
 
-std::uint64_t count_digit(const std::uint64_t* pairs, const Chunks& chunks, Digit digit,
-                          std::uint32_t* histograms)
+std::uint64_t differing_bits(const std::uint64_t* pairs, const Chunks& chunks)
 {
     std::array<OwnLine, kMostChunks> differing{};
     const std::uint64_t sample = pairs[0];
     parallel_for_each_index(chunks.count(),
                             [&](std::size_t chunk)
                             {
-                                differing[chunk].bits =
-                                    count_run(pairs + chunks.begin(chunk), pairs + chunks.end(chunk), sample,
-                                              digit, histograms + chunk * digit.values());
+                                differing[chunk].bits = differing_bits_of_run(
+                                    pairs + chunks.begin(chunk), pairs + chunks.end(chunk), sample);
                             });
     std::uint64_t all = 0;
     for (const OwnLine& line : differing) all |= line.bits;
     return all;
+}
+
+void count_digit(const std::uint64_t* pairs, const Chunks& chunks, Digit digit, std::uint32_t* histograms)
+{
+    parallel_for_each_index(chunks.count(),
+                            [&](std::size_t chunk)
+                            {
+                                count_run(pairs + chunks.begin(chunk), pairs + chunks.end(chunk), digit,
+                                          histograms + chunk * digit.values());
+                            });
 }
 
 void counts_to_places(const Chunks& chunks, Digit digit, std::uint32_t* histograms)

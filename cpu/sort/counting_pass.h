@@ -33,13 +33,15 @@ class Chunks
     std::size_t count_;
 };
 
+/// The bits in which the pairs differ at all.
+std::uint64_t differing_bits(const std::uint64_t* pairs, const Chunks& chunks);
+
 /// The stable move of pairs into the order of one digit, in three parallel steps over the same chunks.
 /// `histograms` holds chunks.count() times digit.values() counters, one histogram after the other. n < 2^32.
 /// The outcome does not depend on the number of chunks.
 
-/// Counts the digit's values chunk by chunk. Returns the bits in which the pairs differ at all.
-std::uint64_t count_digit(const std::uint64_t* pairs, const Chunks& chunks, Digit digit,
-                          std::uint32_t* histograms);
+/// Counts the digit's values chunk by chunk.
+void count_digit(const std::uint64_t* pairs, const Chunks& chunks, Digit digit, std::uint32_t* histograms);
 
 /// Turns counts into the place of the next pair of each value and chunk.
 void counts_to_places(const Chunks& chunks, Digit digit, std::uint32_t* histograms);

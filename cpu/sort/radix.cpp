@@ -73,18 +73,12 @@ std::uint64_t* sort(const SortJob& job)
         insertion_sort(job.pairs, job.n);
         return job.pairs;
     }
-    const int widest = widest_digit_bits(job.n);
     const Chunks chunks(job.n, kShortestChunk, kMostChunks);
-    const HistogramLease lease(chunks.count() << widest);
-    std::uint32_t* const counters = lease.counters();
-
-    // The first count also finds the bits in which keys differ; only those need passes.
-    Plan plan(0, job.key_bits, widest);
-    const std::uint64_t differing = count_digit(job.pairs, chunks, plan[0], counters) >> kKeyShift;
+    const std::uint64_t differing = differing_bits(job.pairs, chunks) >> kKeyShift;
     if (differing == 0) return job.pairs;
-    const Plan tight(std::countr_zero(differing), static_cast<int>(std::bit_width(differing)), widest);
-    bool counted = tight.count() >= plan.count();
-    if (!counted) plan = tight;
+    const int widest = widest_digit_bits(job.n);
+    const Plan plan(std::countr_zero(differing), static_cast<int>(std::bit_width(differing)), widest);
+    const HistogramLease lease(chunks.count() << widest);
 
     std::uint64_t* from = job.pairs;
     std::uint64_t* to = job.scratch;
@@ -92,14 +86,11 @@ std::uint64_t* sort(const SortJob& job)
     {
         const Digit digit = plan[pass];
         const bool constant = digit.of(differing << kKeyShift) == 0;
-        if (!constant)
-        {
-            if (!counted) count_digit(from, chunks, digit, counters);
-            counts_to_places(chunks, digit, counters);
-            scatter_by_digit(from, to, chunks, digit, counters);
-            std::swap(from, to);
-        }
-        counted = false;
+        if (constant) continue;
+        count_digit(from, chunks, digit, lease.counters());
+        counts_to_places(chunks, digit, lease.counters());
+        scatter_by_digit(from, to, chunks, digit, lease.counters());
+        std::swap(from, to);
     }
     return from;
 }
