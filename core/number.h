@@ -102,6 +102,12 @@ SPINDRIFT_HD Element gather(const Element* base, std::int32_t index)
     return base[index];
 }
 
+/// base[index] of bytes. Packs read 32-bit words: 3 bytes behind the last must be readable.
+SPINDRIFT_HD std::int32_t gather_bytes(const std::uint8_t* base, std::int32_t index)
+{
+    return base[index];
+}
+
 // Lanes.
 
 template <class T>

@@ -219,6 +219,12 @@ SPINDRIFT_HD Avx2UInt gather(const std::uint32_t* base, Avx2Int index)
     return Avx2UInt(_mm256_i32gather_epi32(reinterpret_cast<const int*>(base), index.v, 4));
 }
 
+SPINDRIFT_HD Avx2Int gather_bytes(const std::uint8_t* base, Avx2Int index)
+{
+    const __m256i words = _mm256_i32gather_epi32(reinterpret_cast<const int*>(base), index.v, 1);
+    return Avx2Int(_mm256_and_si256(words, _mm256_set1_epi32(0xFF)));
+}
+
 class Avx2Real
 {
   public:

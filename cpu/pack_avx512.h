@@ -259,6 +259,12 @@ SPINDRIFT_HD Avx512UInt gather(const std::uint32_t* base, Avx512Int index)
     return Avx512UInt(_mm512_i32gather_epi32(index.v, base, 4));
 }
 
+SPINDRIFT_HD Avx512Int gather_bytes(const std::uint8_t* base, Avx512Int index)
+{
+    const __m512i words = _mm512_i32gather_epi32(index.v, base, 1);
+    return Avx512Int(_mm512_and_si512(words, _mm512_set1_epi32(0xFF)));
+}
+
 class Avx512Real
 {
   public:
