@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "scene/describe_scene.h"
+#include "scene/sort_names.h"
+
+namespace spindrift::scene
+{
+namespace
+{
+
+constexpr std::array<Named<LightKind>, 3> kLights{
+    {{LightKind::point, "point"}, {LightKind::spot, "spot"}, {LightKind::directional, "directional"}}};
+constexpr std::array<Named<Blending>, 3> kBlendings{
+    {{Blending::over, "over"}, {Blending::additive, "additive"}, {Blending::opaque, "opaque"}}};
+constexpr std::array<Named<Sprite>, 2> kSprites{{{Sprite::crystal, "crystal"}, {Sprite::point, "point"}}};
+
+constexpr Range kShare{.min = 0, .max = 1};
+constexpr Range kLightAmount{.min = 0, .max = 1e9};
+
+void describe_flashing(Section& section, Light& light)
+{
+    section.flag({.name = "flashing", .about = "whether it goes on and off"}, light.flashing);
+    constexpr std::string_view kWhen = "with flashing = true";
+    section.number({.name = "flash_rate_hz",
+                    .about = "flashes per second",
+                    .applies = light.flashing,
+                    .applies_when = kWhen},
+                   {.min = 0.001, .max = 1000}, light.flash_rate_hz);
+    section.number({.name = "flash_duty",
+                    .about = "share of the period that it is on",
+                    .applies = light.flashing,
+                    .applies_when = kWhen},
+                   kShare, light.flash_duty);
+    section.number({.name = "flash_phase",
+                    .about = "share of the period by which it is ahead",
+                    .applies = light.flashing,
+                    .applies_when = kWhen},
+                   kShare, light.flash_phase);
+}
+
+void describe_light_place(Section& section, Light& light)
+{
+    const bool placed = light.kind != LightKind::directional;
+    const bool aimed = light.kind != LightKind::point;
+    const bool spot = light.kind == LightKind::spot;
+    constexpr std::string_view kPlaced = "with kind = \"point\" or \"spot\"";
+    constexpr std::string_view kSpot = "with kind = \"spot\"";
+    section.triple({.name = "position_m",
+                    .about = "of the lamp, world frame or its vehicle's",
+                    .required = true,
+                    .applies = placed,
+                    .applies_when = kPlaced},
+                   kCoordinate, light.position_m);
+    section.triple({.name = "direction",
+                    .about = "the way the light travels, any length",
+                    .required = true,
+                    .applies = aimed,
+                    .applies_when = "with kind = \"spot\" or \"directional\""},
+                   {.min = -1e6, .max = 1e6}, light.direction);
+    const double length = std::sqrt(dot(light.direction, light.direction));
+    section.require(length > 1e-6, "direction", "has no length (it points nowhere)",
+                    "use a vector longer than 1e-6");
+    if (length > 0) light.direction = light.direction * (1 / length);
+    section.number(
+        {.name = "range_m",
+         .about = "distance at which it has faded to nothing; without it, by distance squared only",
+         .applies = placed,
+         .applies_when = kPlaced},
+        {.min = 0.1, .max = 1e5}, light.range_m);
+    section.number({.name = "inner_cone_deg",
+                    .about = "half angle of full light",
+                    .applies = spot,
+                    .applies_when = kSpot},
+                   {.min = 0, .max = 90}, light.inner_cone_deg);
+    section.number({.name = "outer_cone_deg",
+                    .about = "half angle at which the light ends",
+                    .applies = spot,
+                    .applies_when = kSpot},
+                   {.min = 0, .max = 90, .above_min = true}, light.outer_cone_deg);
+    section.require(
+        light.inner_cone_deg <= light.outer_cone_deg, "inner_cone_deg",
+        fmt::format("is above outer_cone_deg = {} (the cone would be inside out)", light.outer_cone_deg),
+        "use at most outer_cone_deg");
+}
+
+void describe_light(Section& section, std::vector<Light>& lights,
+                    const std::vector<VehicleSettings>& vehicles)
+{
+    Light light;
+    section.choice({.name = "kind",
+                    .about = "a point that shines everywhere, a cone, or parallel light",
+                    .required = true},
+                   kLights, light.kind);
+    section.text({.name = "name", .about = "for people and messages"}, light.name);
+    const auto same = [&](const Light& other) { return !light.name.empty() && other.name == light.name; };
+    section.require(std::none_of(lights.begin(), lights.end(), same), "name",
+                    "names a second light (it could not be told apart)", "use each name once");
+    section.flag({.name = "exists", .about = "false: the lamp is not there at all"}, light.exists);
+    section.flag({.name = "on", .about = "false: the lamp is there but dark"}, light.on);
+    describe_vehicle_reference(section, "moves with that vehicle; its place and direction count from there",
+                               light.vehicle, vehicles);
+    describe_light_place(section, light);
+    const bool directional = light.kind == LightKind::directional;
+    section.triple({.name = "intensity_w_sr",
+                    .about = "radiant intensity: red, green, blue, linear, without upper end",
+                    .required = true,
+                    .applies = !directional,
+                    .applies_when = "with kind = \"point\" or \"spot\""},
+                   kLightAmount, light.intensity);
+    section.triple({.name = "irradiance_w_m2",
+                    .about = "on a face towards the light: red, green, blue, linear",
+                    .required = true,
+                    .applies = directional,
+                    .applies_when = "with kind = \"directional\""},
+                   kLightAmount, light.intensity);
+    section.number(
+        {.name = "g", .about = "how far flakes throw this light forward (Henyey-Greenstein); 0: evenly"},
+        {.min = -0.99, .max = 0.99, .why = "at 1 and -1 nothing is scattered aside"}, light.g);
+    describe_flashing(section, light);
+    lights.push_back(light);
+}
+
+void describe_sky_looks(Section& section, SkySettings& sky)
+{
+    section.triple({.name = "zenith_w_sr_m2", .about = "radiance overhead: red, green, blue, linear"},
+                   kLightAmount, sky.zenith);
+    section.triple({.name = "horizon_w_sr_m2", .about = "radiance at the horizon and below"}, kLightAmount,
+                   sky.horizon);
+    section.triple(
+        {.name = "ambient_w_sr_m2", .about = "light that reaches everything once, as irradiance over pi"},
+        kLightAmount, sky.ambient);
+}
+
+/// Smallest angle's sine between the view and the vertical on the straight way from one key to the next; 0
+/// when the eye meets its target.
+double least_horizontal_share(const Vec3d& from, const Vec3d& to)
+{
+    const Vec3d change = to - from;
+    const double change2 = change.x * change.x + change.y * change.y;
+    const double nearest = change2 > 0 ? -(from.x * change.x + from.y * change.y) / change2 : 0;
+    double least = 1;
+    for (const double t : {0.0, std::clamp(nearest, 0.0, 1.0), 1.0})
+    {
+        const Vec3d look = from + change * t;
+        const double length = std::sqrt(dot(look, look));
+        least = std::min(least, length > 1e-3 ? std::hypot(look.x, look.y) / length : 0.0);
+    }
+    return least;
+}
+
+void describe_camera_key(Section& section, CameraKey& key, const std::vector<CameraKey>& before)
+{
+    section.triple({.name = "eye_m", .about = "where the camera is, world frame", .required = true},
+                   kCoordinate, key.eye_m);
+    section.triple({.name = "look_at_m", .about = "what it looks at", .required = true}, kCoordinate,
+                   key.look_at_m);
+    const Vec3d look = key.look_at_m - key.eye_m;
+    section.require(dot(look, look) > 1e-6, "look_at_m", "equals eye_m (the camera looks nowhere)",
+                    "use a point at least 0.001 m away from eye_m");
+    constexpr double kLeastShare = 1e-3;  // 0.06 degrees: what single precision still tells from straight up
+    section.require(least_horizontal_share(look, look) > kLeastShare, "look_at_m",
+                    "is straight above or below eye_m (no side of the picture would be up)",
+                    "move it sideways by a thousandth of the distance or more");
+    if (before.empty()) return;
+    const Vec3d last = before.back().look_at_m - before.back().eye_m;
+    section.require(least_horizontal_share(last, look) > kLeastShare, "look_at_m",
+                    "makes the camera look straight up or down, or at itself, on the way from the key before",
+                    "add a key between them");
+}
+
+void describe_camera(Section& section, CameraSettings& camera)
+{
+    section.number({.name = "fov_y_deg", .about = "vertical angle of view"},
+                   {.min = 1, .max = 170, .why = "a flat picture holds no wider angle"}, camera.fov_y_deg);
+    section.number({.name = "near_m", .about = "nothing nearer is drawn"}, {.min = 1e-3, .max = 1e4},
+                   camera.near_m);
+    section.number({.name = "far_m", .about = "nothing farther is drawn"}, {.min = 1e-2, .max = 1e6},
+                   camera.far_m);
+    section.require(camera.near_m < camera.far_m, "far_m",
+                    fmt::format("is not above near_m = {} (nothing would be seen)", camera.near_m),
+                    "use more than near_m");
+    describe_path(section, "the camera's way, piecewise linear in time, held at both ends", camera.keys,
+                  [&](Section& key_section, CameraKey& key)
+                  { describe_camera_key(key_section, key, camera.keys); });
+    section.require(!camera.keys.empty(), "key", "is empty (the camera is nowhere)",
+                    "give at least one [[camera.key]]");
+}
+
+void describe_picture(Section& section, RenderSettings& render)
+{
+    constexpr Range kPixels{.min = 1, .max = 16384, .why = "OpenGL draws no larger picture"};
+    section.whole({.name = "width_px", .about = "of the picture; also --size"}, kPixels, render.width_px);
+    section.whole({.name = "height_px", .about = "of the picture; also --size"}, kPixels, render.height_px);
+    section.number({.name = "frames_per_s", .about = "of the film; also --fps"}, {.min = 0.01, .max = 1000},
+                   render.frames_per_s);
+    section.whole({.name = "frames", .about = "to draw without a window; also --frames"},
+                  {.min = 1, .max = 1e7, .allowed = "1 to 10000000"}, render.frames);
+    section.number({.name = "warm_up_s", .about = "time that passes before the first frame"},
+                   {.min = 0, .max = 36000}, render.warm_up_s);
+}
+
+void describe_render(Section& section, RenderSettings& render)
+{
+    describe_picture(section, render);
+    section.choice({.name = "blending", .about = "sorted far to near, added without a sort, or opaque"},
+                   kBlendings, render.blending);
+    section.choice({.name = "sprite", .about = "grown crystals, or plain points"}, kSprites, render.sprite);
+    std::size_t sort = static_cast<std::size_t>(std::find(kSortNames.begin(), kSortNames.end(), render.sort) -
+                                                kSortNames.begin());
+    section.choice({.name = "sort", .about = "strategy of the depth sort; also --sort"},
+                   std::span<const std::string_view>(kSortNames), sort);
+    render.sort = kSortNames.at(sort);
+    section.whole(
+        {.name = "depth_bits", .about = "of the sort key; fewer are faster and blend near ties in any order"},
+        {.min = 16, .max = 32, .allowed = "16, 24 or 32"}, render.depth_bits);
+    section.require(render.depth_bits % 8 == 0, "depth_bits",
+                    "is not a width that the sorts have (whole bytes)", "use 16, 24 or 32");
+    section.number({.name = "exposure", .about = "factor on all light before the tone curve"},
+                   {.min = 0, .max = 1e6, .above_min = true}, render.exposure);
+    section.number({.name = "flake_opacity", .about = "at the centre of a flake"}, kShare,
+                   render.flake_opacity);
+    section.number({.name = "flake_scale",
+                    .about = "drawn over real diameter; snow.weight over its square keeps the optical depth"},
+                   {.min = 0.01, .max = 1000}, render.flake_scale);
+}
+
+}  // namespace
+
+void describe_looks(Section& root, Scene& scene)
+{
+    root.sections({.name = "light", .about = "lamps and the sun"},
+                  [&](Section& s) { describe_light(s, scene.lights, scene.vehicles); });
+    root.section({.name = "sky", .about = "background and the light that comes from everywhere"},
+                 [&](Section& s) { describe_sky_looks(s, scene.sky); });
+    root.section({.name = "camera", .about = "who looks", .required = true},
+                 [&](Section& s) { describe_camera(s, scene.camera); });
+    root.section({.name = "render", .about = "the pictures"},
+                 [&](Section& s) { describe_render(s, scene.render); });
+}
+
+}  // namespace spindrift::scene
