@@ -37,7 +37,7 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
 {
     constexpr std::size_t kLongestName = 64;  // no key is that long; keeps the table small for hostile input
     if (name.size() > kLongestName) return {};
-    const std::size_t limit = std::max<std::size_t>(2, name.size() / 3);
+    const std::size_t limit = std::max<std::size_t>(1, (name.size() + 1) / 3);
     std::string_view nearest;
     std::size_t fewest = limit + 1;
     for (const std::string_view candidate : known)

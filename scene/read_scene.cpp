@@ -36,7 +36,7 @@ TomlDocument::Value toml_number(std::uint64_t value)
 }
 
 /// Files named on a command line count from where the command runs, not from the scene's folder.
-std::string absolute(const std::filesystem::path& path)
+std::string from_here(const std::filesystem::path& path)
 {
     std::error_code error;
     const std::filesystem::path full = std::filesystem::absolute(path, error);
@@ -55,7 +55,7 @@ void set_overrides(TomlDocument& document, const SceneOverrides& overrides)
     };
     const auto set_file = [&](std::string_view key, const std::optional<std::filesystem::path>& value)
     {
-        if (value) document.set("wind", key, absolute(*value));
+        if (value) document.set("wind", key, from_here(*value));
     };
     set("render", "sort", overrides.sort);
     set("render", "frames_per_s", overrides.frames_per_s);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -108,7 +109,9 @@ class SchemaWriter final : public Section
     {
         const std::string path =
             path_.empty() ? std::string(key.name) : fmt::format("{}.{}", path_, key.name);
-        later_ += fmt::format("\n### `{}{}{}`\n\n{}{}.\n", open, path, close, key.about,
+        std::string about(key.about);
+        about.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(about.front())));
+        later_ += fmt::format("\n### `{}{}{}`\n\n{}{}.\n", open, path, close, about,
                               key.required ? " (required)" : "");
         SchemaWriter table(later_, path);
         describe(table);

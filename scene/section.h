@@ -24,7 +24,7 @@ struct Key
     std::string_view about;  ///< what it is, without a full stop
     bool required = false;
     bool applies = true;  ///< false: the rest of the table makes it meaningless, so giving it is an error
-    std::string_view applies_when;  ///< that condition in words; empty: always
+    std::string_view applies_when = {};  ///< that condition in words; empty: always
 };
 
 /// The numbers that a key takes.
@@ -32,9 +32,9 @@ struct Range
 {
     double min = 0;
     double max = 0;
-    bool above_min = false;    ///< min itself is not allowed
-    std::string_view why;      ///< reason for the limits; empty: what the key is says enough
-    std::string_view allowed;  ///< in words, where "min to max" does not say it
+    bool above_min = false;         ///< min itself is not allowed
+    std::string_view why = {};      ///< reason for the limits; empty: what the key is says enough
+    std::string_view allowed = {};  ///< in words, where "min to max" does not say it
 };
 
 /// "0 to 150", "above 0 up to 150" or the range's own words.
