@@ -58,7 +58,7 @@ struct Renderer::Impl
     Snow snow;
     std::uint64_t seed;
     std::vector<scene::Light> model_lights;
-    std::vector<scene::CrystalMask> masks;
+    const std::vector<scene::CrystalMask>& masks = scene::crystal_masks();
     Texture mask_texture;
     Picture picture;
     ScenePass scene_pass;
@@ -76,7 +76,6 @@ struct Renderer::Impl
           snow(w.snow),
           seed(w.seed),
           model_lights(geometry.model_lights),
-          masks(scene::grow_crystals()),
           mask_texture(make_crystal_texture(masks)),
           picture(width, height),
           scene_pass(s, geometry),
