@@ -2,7 +2,7 @@
 #include "app/command_line.h"
 
 #include <cmath>
-#include <functional>
+#include <cstdio>
 #include <map>
 
 #include <fmt/format.h>
@@ -11,6 +11,7 @@
 #include "app/build_info.h"
 #include "app/commands.h"
 #include "app/exit_codes.h"
+#include "app/machine.h"
 #include "cpu/sort/strategy.h"
 
 namespace spindrift::app
@@ -36,8 +37,8 @@ constexpr const char* kRunExamples = R"(
 Examples:
   spindrift run town --headless --out town.mp4 --out town.png --stats town.json
   spindrift run canyon --headless --steps 600 --hash --threads 2 --simd scalar
-  spindrift run sheet --headless --steps 300 --save-snapshot s.cbor
-  spindrift run sheet --headless --load-snapshot s.cbor --out later.png --frames 1
+  spindrift run sheet --headless --steps 300 --save-snapshot s.snap
+  spindrift run sheet --headless --load-snapshot s.snap --out later.png --frames 1
 
 In the window: see the keys at its lower border; F1 shows and hides them.
 )";
@@ -177,15 +178,12 @@ void add_run(CLI::App& app, RunOptions& options)
         ->type_name("T")
         ->check(CLI::Range(0, 1024))
         ->group(machine);
-    static const std::map<std::string, cpu::Simd> kSimd = {{"auto", cpu::Simd::automatic},
-                                                           {"scalar", cpu::Simd::scalar},
-                                                           {"avx2", cpu::Simd::avx2},
-                                                           {"avx512", cpu::Simd::avx512}};
     command
-        .add_option("--simd", options.cpu.simd,
-                    "Vector width: auto, scalar, avx2 or avx512; the result is the same")
+        .add_option_function<std::string>(
+            "--simd", [&options](const std::string& word) { options.cpu.simd = parse_simd(word); },
+            "Vector width: auto, scalar, avx2 or avx512; the result is the same")
         ->type_name("S")
-        ->transform(CLI::Transformer(kSimd).description(""))
+        ->check(CLI::IsMember({"auto", "scalar", "avx2", "avx512"}))
         ->group(machine);
     static const std::map<std::string, Interop> kInterop = {
         {"auto", Interop::automatic}, {"on", Interop::on}, {"off", Interop::off}};

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <thread>
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "core/error.h"
@@ -33,6 +34,15 @@ int usable_threads(const cpu::CpuOptions& options)
 std::string used_simd(const cpu::CpuOptions& options)
 {
     return cpu::simd_name(options.simd == cpu::Simd::automatic ? cpu::available_simd().back() : options.simd);
+}
+
+cpu::Simd parse_simd(const std::string& word)
+{
+    if (word == "auto") return cpu::Simd::automatic;
+    if (word == "scalar") return cpu::Simd::scalar;
+    if (word == "avx2") return cpu::Simd::avx2;
+    if (word == "avx512") return cpu::Simd::avx512;
+    throw Error(fmt::format("simd = {}: is unknown; use auto, scalar, avx2 or avx512", word));
 }
 
 std::string processor_name()

@@ -15,6 +15,9 @@ int usable_threads(const cpu::CpuOptions& options);
 /// Name of the SIMD variant that runs with these options.
 std::string used_simd(const cpu::CpuOptions& options);
 
+/// From "auto", "scalar", "avx2" or "avx512". Throws Error for another word.
+cpu::Simd parse_simd(const std::string& word);
+
 /// As the processor calls itself; "unknown" where /proc does not say.
 std::string processor_name();
 

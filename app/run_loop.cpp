@@ -7,8 +7,8 @@
 
 #include "app/frame_drawer.h"
 #include "app/progress_bar.h"
-#include "app/snapshot_file.h"
 #include "core/error.h"
+#include "cpu/snapshot_file.h"
 #include "scene/make_world.h"
 
 namespace spindrift::app
@@ -34,20 +34,16 @@ std::unique_ptr<Simulator> start_simulator(RunState& run, std::unique_ptr<FlakeM
     run.report.backend = simulator->backend().name();
     if (run.options.load_snapshot.empty()) return simulator;
 
-    const StoredSnapshot stored = read_snapshot(run.options.load_snapshot);
+    const std::filesystem::path& file = run.options.load_snapshot;
+    const Snapshot snapshot = cpu::read_snapshot(file);
     try
     {
-        simulator->backend().restore(stored.snapshot);
+        simulator->backend().restore(snapshot);
     }
     catch (const Error& e)
     {
-        throw Error(fmt::format("{}: {}", run.options.load_snapshot.string(), e.what()));
+        throw Error(fmt::format("{}: {}", file.string(), e.what()));
     }
-    if (simulator->backend().state_hash() != stored.state_hash)
-        throw Error(
-            fmt::format("{}: is damaged (its flakes do not have the hash that was saved with them); "
-                        "save the snapshot again",
-                        run.options.load_snapshot.string()));
     return simulator;
 }
 
@@ -70,8 +66,7 @@ void conclude(RunState& run, Simulator& simulator)
     run.report.steps = backend.step_number();
     run.report.state_hash = backend.state_hash();
     run.report.interrupted = run.interrupt.requested();
-    if (!run.options.save_snapshot.empty())
-        write_snapshot(run.options.save_snapshot, {backend.save(), run.report.state_hash});
+    if (!run.options.save_snapshot.empty()) cpu::write_snapshot(backend.save(), run.options.save_snapshot);
     run.report.stages = run.log.summaries();
 }
 

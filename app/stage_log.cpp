@@ -23,6 +23,7 @@ void StageLog::add(std::string_view stage, double ms)
     auto found =
         std::find_if(stages_.begin(), stages_.end(), [&](const Stage& s) { return s.name == stage; });
     if (found == stages_.end()) found = stages_.insert(stages_.end(), Stage{std::string(stage), {}});
+    if (keep_ == Keep::newest) found->samples_ms.clear();
     found->samples_ms.push_back(static_cast<float>(ms));
 }
 

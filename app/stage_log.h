@@ -22,6 +22,13 @@ struct StageSummary
 class StageLog
 {
   public:
+    enum class Keep
+    {
+        all,     ///< for summaries at the end of a run
+        newest,  ///< for runs without an end
+    };
+    explicit StageLog(Keep keep = Keep::all) : keep_(keep) {}
+
     void add(std::string_view stage, double ms);
     std::vector<StageSummary> summaries() const;
     /// The newest sample of each stage, for the overlay.
@@ -33,6 +40,7 @@ class StageLog
         std::string name;
         std::vector<float> samples_ms;
     };
+    Keep keep_;
     std::vector<Stage> stages_;
 };
 
