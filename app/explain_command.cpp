@@ -29,7 +29,7 @@ struct Explained
 {
     scene::Scene scene;
     World world;
-    std::size_t triangles = 0;
+    std::size_t triangles = 0, lights = 0;
     gl::FramePlan plan;
     MemoryNeed memory{};
 };
@@ -53,12 +53,12 @@ Explained explain_scene(const ExplainOptions& options)
     for (const scene::Mesh& mesh : geometry.meshes)
         for (const scene::MeshPart& part : mesh.parts) e.triangles += part.indices.size() / 3;
     e.world = scene::make_world(e.scene, geometry);
-    for (const scene::Light& light : geometry.model_lights) e.scene.lights.push_back(light);
+    e.lights = e.scene.lights.size() + geometry.model_lights.size();
 
     gl::FrameStats stats;
     stats.counts.alive = stats.counts.emitted = stats.drawn = e.world.capacity;
     const double time_s = e.scene.render.warm_up_s;
-    e.plan = gl::plan_frame(e.scene, scene::camera_at(e.scene, time_s), stats, time_s);
+    e.plan = gl::plan_frame(e.scene, scene::camera_at(e.scene, time_s), stats, time_s, geometry.model_lights);
     e.memory = memory_need(e.scene, e.world);
     return e;
 }
@@ -99,7 +99,7 @@ void print_scene(const Explained& e)
     if (w.voxels.nx > 0)
         fmt::print("  solids      {} x {} x {} voxels of {:g} m\n", w.voxels.nx, w.voxels.ny, w.voxels.nz,
                    w.voxels.cell_m);
-    fmt::print("  drawn       {} triangles, {} light(s)\n", e.triangles, e.scene.lights.size());
+    fmt::print("  drawn       {} triangles, {} light(s)\n", e.triangles, e.lights);
     fmt::print("  picture     {} x {} px, {} frames at {:g} per s after {:g} s of warm-up\n",
                e.scene.render.width_px, e.scene.render.height_px, e.scene.render.frames,
                e.scene.render.frames_per_s, e.scene.render.warm_up_s);
@@ -144,7 +144,7 @@ void print_json(const Explained& e)
                          {"cells", {w.wind.nx, w.wind.ny, w.wind.nz}}}},
                        {"voxels", {w.voxels.nx, w.voxels.ny, w.voxels.nz}},
                        {"triangles", e.triangles},
-                       {"lights", e.scene.lights.size()},
+                       {"lights", e.lights},
                        {"frame", passes},
                        {"skipped", skips},
                        {"memory_bytes",

@@ -26,7 +26,7 @@ class FrameDrawer
 
     gl::Renderer& renderer() { return renderer_; }
     const PlanLog& plans() const { return plans_; }
-    const SortSettings& sort() const { return sort_; }
+    SortSettings sort() const { return {scene_.render.sort, scene_.render.depth_bits}; }
     void set_sort(const std::string& strategy);
 
     /// Flakes drawn and culled, one sample a frame.
@@ -34,17 +34,17 @@ class FrameDrawer
     const std::vector<float>& culled() const { return culled_; }
 
   private:
-    bool list_is_valid(const gl::FrameStats& stats, const std::string& strategy) const;
+    gl::FramePlan plan(const View& view, double time_s) const;
 
-    scene::Scene planned_scene_;
+    scene::Scene scene_;  ///< its sort may be changed
+    const scene::Geometry& geometry_;
     Simulator& simulator_;
     StageLog& log_;
     gl::Renderer renderer_;
-    SortSettings sort_;
     PlanLog plans_;
+    bool stale_ = true;  ///< the draw list must be made anew whatever moved
     std::optional<View> last_view_;
     std::uint64_t last_step_ = 0;
-    std::string list_strategy_;
     DrawList list_;
     std::vector<float> drawn_, culled_;
 };

@@ -27,7 +27,8 @@ class StageLog
         all,     ///< for summaries at the end of a run
         newest,  ///< for runs without an end
     };
-    explicit StageLog(Keep keep = Keep::all) : keep_(keep) {}
+    StageLog() = default;
+    explicit StageLog(Keep keep) : keep_(keep) {}
 
     void add(std::string_view stage, double ms);
     std::vector<StageSummary> summaries() const;
@@ -40,7 +41,7 @@ class StageLog
         std::string name;
         std::vector<float> samples_ms;
     };
-    Keep keep_;
+    Keep keep_ = Keep::all;
     std::vector<Stage> stages_;
 };
 
