@@ -5,9 +5,8 @@ include(CMakePackageConfigHelpers)
 set(spindrift_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/spindrift)
 
 install(TARGETS spindrift RUNTIME)
-install(TARGETS spindrift_embed spindrift_gl spindrift_cpu spindrift_sort spindrift_scene spindrift_image spindrift_core
-                spindrift_numerics
-        EXPORT spindrift ARCHIVE)
+get_property(spindrift_parts GLOBAL PROPERTY SPINDRIFT_LIBRARIES)
+install(TARGETS spindrift_embed ${spindrift_parts} spindrift_core spindrift_numerics EXPORT spindrift ARCHIVE)
 install(EXPORT spindrift NAMESPACE spindrift:: FILE spindriftTargets.cmake DESTINATION ${spindrift_package_dir})
 
 # The public headers, and the two of core that they name; these include nothing but the standard library.
