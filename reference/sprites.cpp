@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "reference/sprites.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/snow.h"
+
+namespace spindrift::reference
+{
+
+namespace
+{
+
+// All from docs/drawing.md, "Its sprite" and "Its light".
+constexpr double kSmallestRadius = 0.75;
+constexpr double kLargestRadius = 127;
+constexpr double kPlainBelow = 3, kDetailFrom = 6;  ///< px: between them mask and imposter fade in
+constexpr double kMostOpacity = 0.9999;
+constexpr double kThinnestFade = 0.05;
+constexpr double kMostRadiance = 6e4;
+constexpr double kImposter = 0.5;
+
+double detail_of(double r)
+{
+    return std::clamp((r - kPlainBelow) / (kDetailFrom - kPlainBelow), 0.0, 1.0);
+}
+
+/// Radius as drawn, and the opacity that keeps the coverage of flakes below the smallest radius.
+void set_size(Sprite& sprite, const scene::RenderSettings& render, const View& view, double diameter_m)
+{
+    const double focal_px = view.height_px / (2.0 * view.tan_half_fov_y);
+    sprite.radius_m = 0.5 * diameter_m * render.flake_scale;
+    const double r = sprite.radius_m * focal_px / sprite.z;
+    const double smaller = std::min(r / kSmallestRadius, 1.0);
+    sprite.r = std::clamp(r, kSmallestRadius, std::min<double>(view.guard_px, kLargestRadius));
+    sprite.opacity = smaller * smaller * std::clamp((sprite.z - view.near_m) / (3.0 * view.near_m), 0.0, 1.0);
+}
+
+/// Sprite in the colour of its flake: crystal sprites that are lit and large enough are shaded as spheres.
+Rgb radiance(const Sprite& sprite, const scene::RenderSettings& render, double px, double py, double rho2)
+{
+    const Vec3d& l = sprite.light.towards;
+    double shade = 1;
+    if (render.blending != scene::Blending::opaque && render.sprite == scene::Sprite::crystal)
+    {
+        const double normal_z = std::sqrt(std::max(1 - rho2, 0.0));
+        const double facing = px * l.x + py * l.y + normal_z * l.z;
+        const double t = detail_of(sprite.r);
+        shade = (1 - t) + t * (1 + kImposter * facing) / (1 + kImposter * 2 / 3 * l.z);
+    }
+    const Rgb sum = sprite.light.ambient + sprite.light.lamps * shade;
+    return {std::min(sum.x, kMostRadiance), std::min(sum.y, kMostRadiance), std::min(sum.z, kMostRadiance)};
+}
+
+}  // namespace
+
+std::vector<Sprite> make_sprites(const scene::Scene& scene, const World& world, const FlakeView& flakes,
+                                 std::size_t used, const View& view, const Lights& lights, double time_s)
+{
+    const Vec3d eye = wide(view.eye), right = wide(view.right), up = wide(view.up),
+                forward = wide(view.forward);
+    const double focal_px = view.height_px / (2.0 * view.tan_half_fov_y);
+    const FlakeSizes sizes(world.snow, world.seed);
+    std::vector<Sprite> sprites;
+    for (std::size_t slot = 0; slot < used; ++slot)
+    {
+        if ((flakes.state[slot] & 0xFFU) != static_cast<std::uint32_t>(Fate::alive)) continue;
+        const Vec3d at{flakes.x[slot], flakes.y[slot], flakes.z[slot]};
+        const Vec3d d = at - eye;
+        Sprite sprite;
+        sprite.z = dot(d, forward);
+        if (!(sprite.z > view.near_m && sprite.z < view.far_m)) continue;
+        sprite.distance2 = dot(d, d);
+        sprite.id = flakes.id[slot];
+        sprite.x = 0.5 * view.width_px + dot(d, right) / sprite.z * focal_px;
+        sprite.y = 0.5 * view.height_px - dot(d, up) / sprite.z * focal_px;
+        set_size(sprite, scene.render, view, sizes.diameter_m<double>(sprite.id));
+        if (sprite.x < -sprite.r || sprite.y < -sprite.r || sprite.x > view.width_px + sprite.r ||
+            sprite.y > view.height_px + sprite.r)
+            continue;
+        const FlakeTurn turn = flake_turn(world.seed, sprite.id, scene::kCrystalShapes);
+        sprite.shape = static_cast<int>(turn.shape);
+        sincos_turns(turn.turns_at(time_s), sprite.sine, sprite.cosine);
+        sprite.light = flake_light(lights, scene.sky, view, at);
+        sprites.push_back(sprite);
+    }
+    std::sort(sprites.begin(), sprites.end(),
+              [](const Sprite& a, const Sprite& b)
+              { return a.distance2 != b.distance2 ? a.distance2 > b.distance2 : a.id < b.id; });
+    return sprites;
+}
+
+Dab dab_at(const Sprite& sprite, const scene::Scene& scene, const World& world,
+           const std::vector<scene::CrystalMask>& crystals, double pixel_x, double pixel_y, double z_scene)
+{
+    const scene::RenderSettings& render = scene.render;
+    const double px = (pixel_x - sprite.x) / sprite.r;
+    const double py = (sprite.y - pixel_y) / sprite.r;
+    const double rho2 = px * px + py * py;
+    if (rho2 > 1 || sprite.z >= z_scene) return {};
+    const Rgb colour = radiance(sprite, render, px, py, rho2);
+    if (render.blending == scene::Blending::opaque) return {1, colour};
+
+    double profile = 1;
+    if (render.sprite == scene::Sprite::crystal)
+    {
+        const scene::CrystalMask& crystal = crystals[static_cast<std::size_t>(sprite.shape)];
+        const double t = detail_of(sprite.r);
+        double mask = crystal.mean;
+        if (t > 0)
+        {
+            const double u = sprite.cosine * px + sprite.sine * py, v = sprite.cosine * py - sprite.sine * px;
+            mask += t * (scene::sample_mask(crystal, u, v, std::max(0.0, std::log2(64 / sprite.r))) -
+                         crystal.mean);
+        }
+        profile =
+            render.flake_opacity * std::exp(-rho2 / (2 * scene::kProfileSigma * scene::kProfileSigma)) * mask;
+    }
+    const double opacity = std::min(sprite.opacity * profile, kMostOpacity);
+    const double real_flakes = world.snow.weight / (render.flake_scale * render.flake_scale);
+    const double fade = std::clamp((z_scene - sprite.z) / std::max(sprite.radius_m, kThinnestFade), 0.0, 1.0);
+    return {(1 - std::pow(1 - opacity, real_flakes)) * fade, colour};
+}
+
+}  // namespace spindrift::reference

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "image/image.h"
+#include "tests/golden/small_scenes.h"
+
+namespace spindrift::golden
+{
+
+struct GlPicture
+{
+    image::Image linear;    ///< the float target
+    image::Image8 display;  ///< after the tone curve
+    std::string errors;     ///< what the driver complained of; empty when all is well
+};
+
+/// Draws a small scene with gl::Renderer, its flakes handed over in the exact order far to near. Needs a
+/// current context.
+GlPicture draw_with_gl(SmallScene& small);
+
+}  // namespace spindrift::golden

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <memory>
+
+#include "gl/context.h"
+#include "image/compare.h"
+#include "image/write.h"
+#include "tests/golden/shipped_scene.h"
+
+// The shipped scenes against pictures kept in pictures/, and against the reference renderer.
+// SPINDRIFT_UPDATE_GOLDEN=1 makes the pictures anew (and records the driver) instead of comparing; look at
+// them before you commit. A picture binds only the driver that it was made with: software GL rounds by what
+// the processor and the Mesa version give. Elsewhere the comparison with the reference alone decides.
+
+namespace spindrift::golden
+{
+namespace
+{
+
+const std::filesystem::path kPictures = SPINDRIFT_SOURCE_DIR "/tests/golden/pictures";
+
+// At most 0.1 % of the pixels more than 3 levels off (docs/decisions/003).
+constexpr int kLevels = 3;
+constexpr double kShareOff = 1e-3;
+
+/// One showing and how near GL must come to the reference.
+struct Case
+{
+    Showing showing;
+    double most_relative_l2;
+    double most_share_off;  ///< of the pixels may be off by more than 1e-2 of white
+};
+
+void PrintTo(const Case& c, std::ostream* out)
+{
+    *out << c.showing.name;
+}
+
+bool updating()
+{
+    const char* value = std::getenv("SPINDRIFT_UPDATE_GOLDEN");
+    return value != nullptr && std::string(value) == "1";
+}
+
+class Golden : public testing::TestWithParam<Case>
+{
+  protected:
+    static void SetUpTestSuite() { context_ = gl::make_headless_context(); }
+    static void TearDownTestSuite() { context_.reset(); }
+
+    static std::string driver() { return context_->info().renderer + ", " + context_->info().version; }
+
+    /// The driver that the pictures were made with.
+    static std::string recorded_driver()
+    {
+        std::ifstream file(kPictures / "driver.txt");
+        std::string line;
+        std::getline(file, line);
+        return line;
+    }
+
+    static void update(const std::string& name, const image::Image8& picture)
+    {
+        image::write_png(kPictures / (name + ".png"), picture);
+        std::ofstream(kPictures / "driver.txt") << driver() << "\n";
+    }
+
+    static std::unique_ptr<gl::Context> context_;
+};
+
+std::unique_ptr<gl::Context> Golden::context_;
+
+/// `display` as the tone curve makes it of the reference's light.
+image::Image8 developed(const image::Image& linear, double exposure)
+{
+    image::Image exposed = linear;
+    for (float& value : exposed.rgba) value *= static_cast<float>(exposure);
+    return image::to_srgb8(exposed);
+}
+
+TEST_P(Golden, LooksAsItDid)
+{
+    const Case& c = GetParam();
+    const std::string& name = c.showing.name;
+    const Shown shown = show(c.showing);
+    EXPECT_EQ(shown.errors, "");
+    EXPECT_GT(shown.drawn, 0U);
+
+    const image::Difference truth = image::compare(shown.linear, shown.reference, 1e-2);
+    fmt::print(
+        "{}: {} flakes drawn; reference: relative L2 {:.2e}, worst {:.2e}, {:.3f} % of pixels off by more "
+        "than 1e-2\n",
+        name, shown.drawn, truth.relative_l2, truth.worst, 100 * truth.share_above);
+    EXPECT_LE(truth.relative_l2, c.most_relative_l2);
+    EXPECT_LE(truth.share_above, c.most_share_off);
+
+    const std::string kept = testing::TempDir() + "spindrift-" + name;
+    if (updating())
+        update(name, shown.display);
+    else if (driver() != recorded_driver())
+        fmt::print("{}: the picture is of \"{}\", this driver is \"{}\": only the reference decides\n", name,
+                   recorded_driver(), driver());
+    else
+    {
+        const image::Difference off =
+            image::compare(shown.display, image::read_png(kPictures / (name + ".png")), kLevels);
+        EXPECT_LE(off.share_above, kShareOff) << "worst pixel: " << off.worst << " levels";
+    }
+    if (!HasFailure()) return;
+    image::write_png(kept + ".png", shown.display);
+    image::write_png(kept + "-reference.png", developed(shown.reference, 1));
+    ADD_FAILURE() << "see " << kept << ".png and " << kept << "-reference.png beside "
+                  << (kPictures / (name + ".png")).string();
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Golden,
+                         testing::Values(Case{{"town"}, 2e-3, 2e-3}, Case{{"canyon"}, 2e-3, 2e-3},
+                                         Case{{"sheet"}, 2e-3, 2e-3}, Case{{"calm"}, 2e-3, 2e-3}),
+                         [](const testing::TestParamInfo<Case>& tested)
+                         { return tested.param.showing.name; });
+
+}  // namespace
+}  // namespace spindrift::golden

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "tests/golden/shipped_scene.h"
+
+#include <cmath>
+
+#include "cpu/cpu_backend.h"
+#include "gl/context.h"
+#include "gl/frame_plan.h"
+#include "gl/renderer.h"
+#include "reference/reference.h"
+
+namespace spindrift::golden
+{
+
+Shown show(const Showing& showing)
+{
+    scene::SceneOverrides overrides;
+    overrides.particles = showing.particles;
+    overrides.width_px = showing.width_px;
+    overrides.height_px = showing.height_px;
+    const scene::Scene scene =
+        scene::read_scene(SPINDRIFT_SOURCE_DIR "/scenes/" + showing.name + ".toml", overrides);
+    const scene::Geometry geometry = scene::read_geometry(scene);
+    const World world = scene::make_world(scene, geometry);
+    const gl::FlakeBuffers buffers(world.capacity);
+    const auto backend = cpu::make_cpu_backend(world, buffers.flakes(), buffers.draw_list(), {});
+    const auto steps = static_cast<int>(std::lround(showing.time_s / world.step_s));
+    for (int i = 0; i < steps; ++i) backend->step();
+
+    const View view = scene::camera_at(scene, showing.time_s);
+    const DrawList list =
+        backend->prepare(view, {});  // always sorted: the picture does not depend on what the scene asks for
+    gl::FrameStats stats;
+    stats.counts = backend->counts();
+    gl::Renderer renderer(scene, geometry, world, buffers, view.width_px, view.height_px);
+    renderer.draw(gl::plan_frame(scene, view, stats, showing.time_s, geometry.model_lights), view, list,
+                  showing.time_s);
+    return {renderer.read_linear(), renderer.read_display(),
+            reference::render(scene, geometry, world, buffers.flakes(), backend->slots_used(), view,
+                              showing.time_s),
+            list.count, gl::Context::debug_errors()};
+}
+
+}  // namespace spindrift::golden
