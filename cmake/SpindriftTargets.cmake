@@ -21,6 +21,7 @@ function(spindrift_library part)
     cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
     add_library(spindrift_${part} STATIC ${arg_SOURCES})
     add_library(spindrift::${part} ALIAS spindrift_${part})
+    set_property(GLOBAL APPEND PROPERTY SPINDRIFT_LIBRARIES spindrift_${part})
     set_target_properties(spindrift_${part} PROPERTIES EXPORT_NAME ${part} POSITION_INDEPENDENT_CODE ON)
     target_include_directories(spindrift_${part} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
     target_link_libraries(spindrift_${part} PUBLIC spindrift_numerics ${arg_PUBLIC}

@@ -13,16 +13,16 @@ namespace spindrift
 /// Flakes that a steady emitter has made by the end of `steps` steps: the integer part of rate · dt · steps.
 /// Differences of it are whole, never negative, and add up exactly for any rate and step. 0 for rates that
 /// are not positive.
-SPINDRIFT_HD std::uint64_t emitted_by_rate(double rate_per_s, double step_s, std::uint64_t steps)
+SPINDRIFT_HD std::uint64_t emitted_after(double rate_per_s, double step_s, std::uint64_t steps)
 {
     const double total = rate_per_s * step_s * static_cast<double>(steps);
     return total >= 1.0 && total < 0x1p63 ? static_cast<std::uint64_t>(total) : 0;
 }
 
 /// Flakes due in step `step` (the first is 0). Bursts come on top, before step 0.
-SPINDRIFT_HD std::uint64_t emission_due(double rate_per_s, double step_s, std::uint64_t step)
+SPINDRIFT_HD std::uint64_t emitted_in_step(double rate_per_s, double step_s, std::uint64_t step)
 {
-    return emitted_by_rate(rate_per_s, step_s, step + 1) - emitted_by_rate(rate_per_s, step_s, step);
+    return emitted_after(rate_per_s, step_s, step + 1) - emitted_after(rate_per_s, step_s, step);
 }
 
 /// Where a flake begins.
@@ -47,9 +47,11 @@ struct StartSampler
     {
     }
 
-    SPINDRIFT_HD Vec3<R> operator()(UIntOf<R> id, StartPlace place = StartPlace::anywhere) const
+    /// `step` and `attempt` tell draws for one id apart.
+    SPINDRIFT_HD Vec3<R> operator()(UIntOf<R> id, StartPlace place = StartPlace::anywhere,
+                                    std::uint32_t step = 0, std::uint32_t attempt = 0) const
     {
-        const auto words = random_words(seed, id, 0U, RandomStream::emission);
+        const auto words = random_words(seed, id, step, RandomStream::emission, attempt);
         const R s = uniform<R>(words.x0);
         const R t = uniform<R>(words.x1);
         const R u = uniform<R>(words.x2);
@@ -95,5 +97,12 @@ struct StartSampler
         return {radius * cosine, radius * sine, height};
     }
 };
+
+/// A start place on any shape but a moving sky.
+SPINDRIFT_HD Vec3f start_position(const Emitter& emitter, std::uint64_t seed, std::uint32_t id,
+                                  std::uint32_t step, std::uint32_t attempt)
+{
+    return StartSampler<float>(emitter, seed)(id, StartPlace::anywhere, step, attempt);
+}
 
 }  // namespace spindrift

@@ -11,86 +11,96 @@
 namespace spindrift
 {
 
-/// The solid things of a World without ownership, as kernels see them.
-struct SolidsView
+/// A voxel grid without ownership, as kernels see it.
+struct Voxels
 {
-    int nx = 0, ny = 0, nz = 0;  ///< 0: no voxels
+    int nx = 0, ny = 0, nz = 0;  ///< 0: nothing solid
     Vec3f origin_m{};
     float cell_m = 1;
     float cells_per_m = 1;  ///< 1 / cell_m
     /// As VoxelGrid::clearance. Packs read it in words: 3 bytes behind its end must be readable.
     const std::uint8_t* clearance = nullptr;
     const std::uint8_t* surface = nullptr;
-    const Surface* surfaces = nullptr;
+
+    /// Of the cell that holds a coordinate; outside the grid it goes on counting.
+    template <class R>
+    SPINDRIFT_HD IntOf<R> cell_index(const R& coordinate, float origin) const
+    {
+        return floor_to_int((coordinate - number<R>(origin)) * number<R>(cells_per_m));
+    }
+
+    /// Chebyshev distance in cells from a cell to the nearest solid one, or less; 0: solid. Large without
+    /// voxels.
+    template <class Int>
+    SPINDRIFT_HD Int clearance_at(const Int& x, const Int& y, const Int& z) const
+    {
+        if (nx == 0) return Int(1 << 24);
+        const Int zero(0);
+        const Int i = min(max(x, zero), Int(nx - 1));
+        const Int j = min(max(y, zero), Int(ny - 1));
+        const Int k = min(max(z, zero), Int(nz - 1));
+        const Int outside = max(max(max(x - i, i - x), max(y - j, j - y)), max(z - k, k - z));
+        const Int inside = gather_bytes(clearance, (k * Int(ny) + j) * Int(nx) + i);
+        return select(outside > zero, outside, inside);
+    }
+
+    template <class R>
+    SPINDRIFT_HD IntOf<R> clearance_of(const Vec3<R>& p) const
+    {
+        return clearance_at(cell_index(p.x, origin_m.x), cell_index(p.y, origin_m.y),
+                            cell_index(p.z, origin_m.z));
+    }
+
+    template <class R>
+    SPINDRIFT_HD MaskOf<R> is_solid(const Vec3<R>& p) const
+    {
+        return clearance_of(p) == IntOf<R>(0);
+    }
+};
+
+inline Voxels voxels_view(const VoxelGrid& grid)
+{
+    Voxels v;
+    v.nx = grid.nx;
+    v.ny = grid.ny;
+    v.nz = grid.nz;
+    v.origin_m = grid.origin_m;
+    v.cell_m = grid.cell_m;
+    v.cells_per_m = 1.0F / grid.cell_m;
+    v.clearance = grid.clearance.data();
+    v.surface = grid.surface.data();
+    return v;
+}
+
+/// The solid things of a World without ownership.
+struct Solids
+{
+    Voxels voxels;
+    const Surface* surfaces = nullptr;  ///< by Voxels::surface
     bool has_ground = false;
     float ground_m = 0;
     Surface ground;
 };
 
-inline SolidsView solids_view(const World& world)
+inline Solids solids_view(const World& world)
 {
-    const VoxelGrid& grid = world.voxels;
-    SolidsView view;
-    view.nx = grid.nx;
-    view.ny = grid.ny;
-    view.nz = grid.nz;
-    view.origin_m = grid.origin_m;
-    view.cell_m = grid.cell_m;
-    view.cells_per_m = 1.0F / grid.cell_m;
-    view.clearance = grid.clearance.data();
-    view.surface = grid.surface.data();
-    view.surfaces = world.surfaces.data();
-    view.has_ground = world.has_ground;
-    view.ground_m = world.ground_m;
-    view.ground = world.ground;
-    return view;
-}
-
-/// Index of a cell; outside the grid it goes on counting.
-template <class Int>
-struct CellIndex
-{
-    Int x, y, z;
-};
-
-template <class R>
-SPINDRIFT_HD CellIndex<IntOf<R>> cell_of(const SolidsView& solids, const Vec3<R>& p)
-{
-    const R scale = number<R>(solids.cells_per_m);
-    return {floor_to_int((p.x - number<R>(solids.origin_m.x)) * scale),
-            floor_to_int((p.y - number<R>(solids.origin_m.y)) * scale),
-            floor_to_int((p.z - number<R>(solids.origin_m.z)) * scale)};
-}
-
-/// Chebyshev distance in cells from a cell to the nearest solid one, or less; 0: solid. Large without voxels.
-template <class Int>
-SPINDRIFT_HD Int clearance_at(const SolidsView& solids, const CellIndex<Int>& cell)
-{
-    if (solids.nx == 0) return Int(1 << 24);
-    const Int zero(0);
-    const Int x = min(max(cell.x, zero), Int(solids.nx - 1));
-    const Int y = min(max(cell.y, zero), Int(solids.ny - 1));
-    const Int z = min(max(cell.z, zero), Int(solids.nz - 1));
-    const Int outside =
-        max(max(max(cell.x - x, x - cell.x), max(cell.y - y, y - cell.y)), max(cell.z - z, z - cell.z));
-    const Int inside = gather_bytes(solids.clearance, (z * Int(solids.ny) + y) * Int(solids.nx) + x);
-    return select(outside > zero, outside, inside);
+    return {voxels_view(world.voxels), world.surfaces.data(), world.has_ground, world.ground_m, world.ground};
 }
 
 /// True where a flake may move by `displacement` at once: nothing solid can be in between. False for what is
 /// not finite. A test on packs before the lanes that need it walk one by one.
 template <class R>
-SPINDRIFT_HD MaskOf<R> moves_freely(const SolidsView& solids, const Vec3<R>& start,
-                                    const Vec3<R>& displacement)
+SPINDRIFT_HD MaskOf<R> moves_freely(const Solids& solids, const Vec3<R>& start, const Vec3<R>& displacement)
 {
     const R one = number<R>(1);
-    const R clearance = to_real<R>(clearance_at(solids, cell_of(solids, start)));
+    const R clearance = to_real<R>(solids.voxels.clearance_of(start));
     const R length = max(max(abs(displacement.x), abs(displacement.y)), abs(displacement.z));
     // max drops a NaN in its first operand: the sum catches it
     const R sum = start.x + start.y + start.z + displacement.x + displacement.y + displacement.z;
     // a 128th less than the free cells: room for rounding of positions in grids of up to 2^16 cells
-    auto free = length * number<R>(solids.cells_per_m) <= (clearance - one) * number<R>(1.0 - 0x1p-7) &&
-                is_finite(sum);
+    auto free =
+        length * number<R>(solids.voxels.cells_per_m) <= (clearance - one) * number<R>(1.0 - 0x1p-7) &&
+        is_finite(sum);
     if (solids.has_ground)
     {
         const R ground = number<R>(solids.ground_m);
@@ -111,6 +121,18 @@ enum class WalkFault : std::uint32_t
 inline constexpr int kMostWalkEvents = 4096;
 inline constexpr int kNoSurface = -1;
 inline constexpr int kGroundSurface = -2;
+
+/// The first face that a displacement meets.
+template <class R>
+struct WalkHit
+{
+    bool struck = false;
+    R share{1};                         ///< of the displacement
+    Vec3<R> at{};                       ///< just outside the solid
+    int axis = 0;                       ///< of the face's normal
+    int surface = kNoSurface;           ///< index into World::surfaces, or kGroundSurface
+    WalkFault fault = WalkFault::none;  ///< began_inside counts as struck, at the start
+};
 
 /// Where a displacement ends among solids.
 template <class R>
@@ -138,31 +160,56 @@ template <class R>
 class VoxelWalker
 {
   public:
-    SPINDRIFT_HD explicit VoxelWalker(const SolidsView& solids) : solids_(solids) {}
+    SPINDRIFT_HD explicit VoxelWalker(const Solids& solids) : solids_(solids) {}
 
+    /// To its end, through all bounces.
     SPINDRIFT_HD WalkResult<R> operator()(const Vec3<R>& start, const Vec3<R>& displacement)
+    {
+        first_only_ = false;
+        if (go(start, displacement)) finish_whole(start, displacement);
+        return result_;
+    }
+
+    /// To the first face, whatever its surface does.
+    SPINDRIFT_HD WalkHit<R> first_hit(const Vec3<R>& start, const Vec3<R>& displacement)
+    {
+        first_only_ = true;
+        hit_axis_ = kNoAxis;
+        go(start, displacement);
+        WalkHit<R> hit;
+        hit.fault = result_.fault;
+        hit.struck = hit_axis_ != kNoAxis || hit.fault == WalkFault::began_inside;
+        if (!hit.struck) return hit;
+        hit.share = time_;
+        hit.at = result_.end;
+        hit.axis = max(hit_axis_, 0);
+        hit.surface = result_.surface;
+        return hit;
+    }
+
+  private:
+    static constexpr int kNoAxis = -1;
+
+    /// True if the whole displacement was gone.
+    SPINDRIFT_HD bool go(const Vec3<R>& start, const Vec3<R>& displacement)
     {
         result_ = WalkResult<R>{};
         result_.end = start;
         time_ = R(0);
         turned_ = 0;
-        if (!begin(start, displacement)) return result_;
+        if (!begin(start, displacement)) return false;
         for (int events = 0; time_ < R(1); ++events)
         {
             if (events == kMostWalkEvents)
             {
                 result_.fault = WalkFault::gave_up;
                 finish(kNoAxis);
-                return result_;
+                return false;
             }
-            if (!advance()) return result_;
+            if (!advance()) return false;
         }
-        finish_whole(start, displacement);
-        return result_;
+        return true;
     }
-
-  private:
-    static constexpr int kNoAxis = -1;
 
     struct Axis
     {
@@ -174,17 +221,21 @@ class VoxelWalker
 
     SPINDRIFT_HD R origin(int k) const
     {
-        return R(k == 0 ? solids_.origin_m.x : k == 1 ? solids_.origin_m.y : solids_.origin_m.z);
+        return R(k == 0   ? solids_.voxels.origin_m.x
+                 : k == 1 ? solids_.voxels.origin_m.y
+                          : solids_.voxels.origin_m.z);
     }
-    SPINDRIFT_HD R to_metres(int k, R cells) const { return origin(k) + cells * R(solids_.cell_m); }
-    SPINDRIFT_HD int clearance(int x, int y, int z) const
+    SPINDRIFT_HD R to_metres(int k, R cells) const { return origin(k) + cells * R(solids_.voxels.cell_m); }
+    SPINDRIFT_HD int clearance(int x, int y, int z) const { return solids_.voxels.clearance_at(x, y, z); }
+    SPINDRIFT_HD int surface_at(int x, int y, int z) const
     {
-        return clearance_at(solids_, CellIndex<std::int32_t>{x, y, z});
+        const Voxels& v = solids_.voxels;
+        return v.surface[(std::int64_t{z} * v.ny + y) * v.nx + x];
     }
     SPINDRIFT_HD bool inside_solid(const Vec3<R>& p) const
     {
         if (solids_.has_ground && p.z < R(solids_.ground_m)) return true;
-        return clearance_at(solids_, cell_of(solids_, p)) == 0;
+        return solids_.voxels.is_solid(p);
     }
 
     /// False if the walk is over before it began.
@@ -192,7 +243,7 @@ class VoxelWalker
     {
         const R p[3] = {start.x, start.y, start.z};
         const R d[3] = {displacement.x, displacement.y, displacement.z};
-        const R scale = R(solids_.cells_per_m);
+        const R scale = R(solids_.voxels.cells_per_m);
         for (int k = 0; k < 3; ++k)
         {
             Axis& axis = axes_[k];
@@ -209,6 +260,9 @@ class VoxelWalker
         ground_ = (R(solids_.ground_m) - origin(2)) * scale;
         if (leave_faces() && !(solids_.has_ground && start.z < R(solids_.ground_m))) return true;
         result_.fault = WalkFault::began_inside;
+        result_.surface = kGroundSurface;
+        if (clearance(axes_[0].cell, axes_[1].cell, axes_[2].cell) == 0)
+            result_.surface = surface_at(axes_[0].cell, axes_[1].cell, axes_[2].cell);
         result_.fate = Fate::vanished;
         return false;
     }
@@ -284,9 +338,8 @@ class VoxelWalker
             axis.cell = cell[k];
             return true;
         }
-        const std::int64_t index = (std::int64_t{cell[2]} * solids_.ny + cell[1]) * solids_.nx + cell[0];
-        result_.surface = solids_.surface[index];
-        return meet(k, face, solids_.surfaces[result_.surface]);
+        result_.surface = surface_at(cell[0], cell[1], cell[2]);
+        return meet(k, face, first_only_ ? Surface{} : solids_.surfaces[result_.surface]);
     }
 
     SPINDRIFT_HD bool touch_ground(R ground_time)
@@ -299,7 +352,8 @@ class VoxelWalker
     SPINDRIFT_HD bool meet(int k, R face, const Surface& surface)
     {
         Axis& axis = axes_[k];
-        if (surface.contact != Contact::bounce)
+        hit_axis_ = k;
+        if (first_only_ || surface.contact != Contact::bounce)
         {
             result_.fate = surface.contact == Contact::land ? Fate::landed : Fate::vanished;
             axis.from = face;
@@ -363,12 +417,23 @@ class VoxelWalker
         return clamp(p, low, high);
     }
 
-    SolidsView solids_;
+    Solids solids_;
     WalkResult<R> result_;
     Axis axes_[3];
     R time_{};
-    R ground_{};                ///< height of the ground in cells
+    R ground_{};  ///< height of the ground in cells
+    bool first_only_ = false;
+    int hit_axis_ = kNoAxis;
     std::uint32_t turned_ = 0;  ///< bit k: axis k has bounced
 };
+
+/// The first solid cell on the way.
+template <class R>
+SPINDRIFT_HD WalkHit<R> walk(const Voxels& voxels, const Vec3<R>& start, const Vec3<R>& displacement)
+{
+    Solids solids;
+    solids.voxels = voxels;
+    return VoxelWalker<R>(solids).first_hit(start, displacement);
+}
 
 }  // namespace spindrift

@@ -14,8 +14,8 @@ struct ContextInfo
     bool software = false;  ///< llvmpipe, softpipe
 };
 
-/// An OpenGL 4.5 core context with GLEW loaded, current in the thread that made it. The debug callback is on in debug builds and
-/// tests; what it reports as an error is kept for debug_errors().
+/// An OpenGL 4.5 core context with GLEW loaded, current in the thread that made it. The debug callback is on
+/// in debug builds and tests; what it reports as an error is kept for debug_errors().
 class Context
 {
   public:

@@ -10,9 +10,9 @@
 namespace spindrift::gl
 {
 
-/// Owns the flakes' memory as GL buffers, persistently and coherently mapped: the CPU backend writes where the
-/// vertex shader reads. One buffer holds the eleven arrays of FlakeView back to back (each padded to 64 bytes), a second
-/// the two draw lists. Needs a current context; throws Error if the memory cannot be had.
+/// Owns the flakes' memory as GL buffers, persistently and coherently mapped: the CPU backend writes where
+/// the vertex shader reads. One buffer holds the eleven arrays of FlakeView back to back (each padded to 64
+/// bytes), a second the two draw lists. Needs a current context; throws Error if the memory cannot be had.
 class FlakeBuffers
 {
   public:
@@ -24,10 +24,10 @@ class FlakeBuffers
     FlakeView flakes() const;
     DrawListView draw_list() const;
     std::size_t capacity() const;
-    std::size_t bytes() const;            ///< of both buffers
-    std::uint32_t state_buffer() const;   ///< GL name
-    std::uint32_t list_buffer() const;    ///< GL name
-    std::size_t array_stride() const;     ///< elements from one array of the state buffer to the next
+    std::size_t bytes() const;           ///< of both buffers
+    std::uint32_t state_buffer() const;  ///< GL name
+    std::uint32_t list_buffer() const;   ///< GL name
+    std::size_t array_stride() const;    ///< elements from one array of the state buffer to the next
 
   private:
     struct Impl;

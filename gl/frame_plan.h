@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,9 +25,9 @@ struct FrameStats
 
 struct PlannedPass
 {
-    std::string name;     ///< "sort", "sky", "scene", "flakes", "tone", ...
+    std::string name;  ///< "sort", "sky", "scene", "flakes", "tone", ...
     bool runs = true;
-    std::string reason;   ///< why it runs, or why it is left out
+    std::string reason;         ///< why it runs, or why it is left out
     std::string reads, writes;  ///< resources, for people
 };
 
@@ -37,8 +38,10 @@ struct FramePlan
     bool runs(std::string_view name) const;
 };
 
-/// Pure: no GL, no clock. `time_s` is the display time of the frame (flashing lights).
-FramePlan plan_frame(const scene::Scene& scene, const View& view, const FrameStats& last, double time_s);
+/// Pure: no GL, no clock. `time_s` is the display time of the frame (flashing lights); `model_lights` are
+/// those that came with models (scene::Geometry), which shine like the scene's own.
+FramePlan plan_frame(const scene::Scene& scene, const View& view, const FrameStats& last, double time_s,
+                     std::span<const scene::Light> model_lights = {});
 
 /// As `spindrift explain` prints it.
 std::string to_text(const FramePlan& plan);

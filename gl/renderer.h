@@ -31,12 +31,17 @@ class Renderer
              const FlakeBuffers& buffers, int width_px, int height_px);
     ~Renderer();
 
-    /// `time_s` is the moment at which the frame is shown. Passes of the plan that do not run are not touched.
+    /// `time_s` is the moment at which the frame is shown. Passes of the plan that do not run are not
+    /// touched.
     void draw(const FramePlan& plan, const View& view, const DrawList& flakes, double time_s);
 
+    /// Blocks until the GPU has read the flakes of the last draw(); call it before a backend writes them
+    /// again.
+    void wait_for_flakes() const;
+
     void resize(int width_px, int height_px);
-    image::Image read_linear() const;    ///< the float target, rows from the top
-    image::Image8 read_display() const;  ///< after tone curve and sRGB
+    image::Image read_linear() const;                             ///< the float target, rows from the top
+    image::Image8 read_display() const;                           ///< after tone curve and sRGB
     void present(int framebuffer_width, int framebuffer_height);  ///< to the window's back buffer
 
     /// GPU times of the last frame that is complete, by pass (GL timer queries); empty before the first.

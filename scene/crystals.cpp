@@ -229,6 +229,12 @@ std::vector<CrystalMask> grow_crystals()
     return masks;
 }
 
+const std::vector<CrystalMask>& crystal_masks()
+{
+    static const std::vector<CrystalMask> masks = grow_crystals();
+    return masks;
+}
+
 double sample_mask(const CrystalMask& mask, double u, double v, double level)
 {
     const double last = static_cast<double>(mask.levels.size()) - 1;

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/options.h"
+
+namespace spindrift::app
+{
+
+// The subcommands, one file each. They return the exit code and throw Error for bad input.
+
+int run(const RunOptions& options);
+int explain(const ExplainOptions& options);
+int info();
+int list_scenes();
+
+}  // namespace spindrift::app

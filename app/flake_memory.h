@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "core/backend.h"
+#include "core/flake.h"
+#include "gl/flake_buffers.h"
+
+namespace spindrift::app
+{
+
+/// Where the flakes of a run live, and how they come to where GL draws from.
+class FlakeMemory
+{
+  public:
+    virtual ~FlakeMemory() = default;
+    virtual FlakeView flakes() const = 0;
+    virtual DrawListView draw_list() const = 0;
+    virtual std::size_t bytes() const = 0;  ///< of all its buffers
+    /// What the renderer draws from; null without GL.
+    virtual const gl::FlakeBuffers* drawn_from() const = 0;
+    /// Makes slots [0, used) and the list visible to GL. Free where the simulation writes GL's memory.
+    virtual void hand_over(std::size_t used, const DrawList& list) = 0;
+};
+
+/// No GL: host memory.
+std::unique_ptr<FlakeMemory> make_host_memory(std::size_t capacity);
+/// The simulation writes GL's buffers. Needs a current context.
+std::unique_ptr<FlakeMemory> make_shared_memory(std::size_t capacity);
+/// The simulation writes host memory, which is copied to GL's buffers for each frame. Needs a current
+/// context.
+std::unique_ptr<FlakeMemory> make_staged_memory(std::size_t capacity);
+
+}  // namespace spindrift::app

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/plan_log.h"
+#include "app/simulator.h"
+#include "app/stage_log.h"
+#include "gl/frame_plan.h"
+#include "gl/renderer.h"
+
+namespace spindrift::app
+{
+
+/// Plans and draws frame after frame of a run: culls and sorts only when the flakes, the camera or the
+/// settings changed.
+class FrameDrawer
+{
+  public:
+    /// All arguments must outlive it. The simulator's memory must be one that GL draws from.
+    FrameDrawer(const scene::Scene& scene, const scene::Geometry& geometry, const World& world,
+                Simulator& simulator, StageLog& log);
+
+    void draw(const View& view, double time_s);
+
+    gl::Renderer& renderer() { return renderer_; }
+    const PlanLog& plans() const { return plans_; }
+    SortSettings sort() const { return {scene_.render.sort, scene_.render.depth_bits}; }
+    void set_sort(const std::string& strategy);
+
+    /// Flakes drawn and culled, one sample a frame.
+    const std::vector<float>& drawn() const { return drawn_; }
+    const std::vector<float>& culled() const { return culled_; }
+
+  private:
+    gl::FramePlan plan(const View& view, double time_s) const;
+
+    scene::Scene scene_;  ///< its sort may be changed
+    const scene::Geometry& geometry_;
+    Simulator& simulator_;
+    StageLog& log_;
+    gl::Renderer renderer_;
+    PlanLog plans_;
+    bool stale_ = true;  ///< the draw list must be made anew whatever moved
+    std::optional<View> last_view_;
+    std::uint64_t last_step_ = 0;
+    DrawList list_;
+    std::vector<float> drawn_, culled_;
+};
+
+}  // namespace spindrift::app

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "app/backend_choice.h"
+#include "app/build_info.h"
+#include "app/commands.h"
+#include "app/exit_codes.h"
+#include "app/machine.h"
+#include "core/error.h"
+#include "cpu/sort/strategy.h"
+#include "gl/context.h"
+
+namespace spindrift::app
+{
+
+namespace
+{
+
+void line(const char* what, const std::string& value)
+{
+    fmt::print("{:<13}{}\n", what, value);
+}
+
+std::string simd_variants()
+{
+    std::string text;
+    for (const cpu::Simd simd : cpu::available_simd())
+        text += (text.empty() ? "" : ", ") + cpu::simd_name(simd);
+    return fmt::format("{} (auto runs {}; the results are the same)", text, used_simd({}));
+}
+
+std::string sorts()
+{
+    std::string text;
+    for (const cpu::SortStrategy& strategy : cpu::sort_strategies())
+        text += fmt::format("{}{}", text.empty() ? "" : ", ", strategy.name);
+    return text;
+}
+
+void print_gl()
+{
+    try
+    {
+        const gl::ContextInfo gl = gl::make_headless_context()->info();
+        line("GL", fmt::format("{} ({})", gl.renderer, gl.software ? "software" : "hardware"));
+        line("", fmt::format("{}, {}, through {}", gl.version, gl.vendor, gl.platform));
+        line(
+            "interop",
+            "the CPU backend writes GL's buffers through persistent mappings (--interop off copies instead)");
+    }
+    catch (const Error& e)
+    {
+        line("GL", fmt::format("none: {}", e.what()));
+        line("interop", "none without GL; --headless without --out simulates all the same");
+    }
+}
+
+}  // namespace
+
+int info()
+{
+    const BackendChoice choice = choose_backend("auto");
+    line("spindrift", fmt::format("{} ({}, {}{}{})", kVersion, kBuildType, kCompiler,
+                                  *kSanitizers ? ", sanitizers " : "", kSanitizers));
+    line("backend", fmt::format("{} ({})", choice.name, choice.reason));
+    line("processor", processor_name());
+    line("threads", fmt::format("{}", usable_threads({})));
+    line("SIMD", simd_variants());
+    line("sorts", sorts());
+    print_gl();
+    line("display", has_display() ? "yes" : "none (DISPLAY and WAYLAND_DISPLAY are unset): use --headless");
+    const auto ffmpeg = find_program("ffmpeg");
+    line("video", ffmpeg.empty() ? "no ffmpeg on the PATH: --out x.mp4 is not possible" : ffmpeg.string());
+    line("libraries", kLibraries);
+    return kOk;
+}
+
+}  // namespace spindrift::app

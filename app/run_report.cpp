@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "app/run_report.h"
+
+#include <span>
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <nlohmann/json.hpp>
+
+#include "app/build_info.h"
+#include "core/flake.h"
+#include "image/whole_file.h"
+
+namespace spindrift::app
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+std::uint64_t peak_resident_bytes()
+{
+    rusage usage = {};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+Json build_json()
+{
+    return {
+        {"version", kVersion}, {"build", kBuildType}, {"compiler", kCompiler}, {"sanitizers", kSanitizers}};
+}
+
+Json machine_json(const RunReport& report)
+{
+    Json machine = {{"backend",
+                     {{"name", report.choice.name},
+                      {"why", report.choice.reason},
+                      {"description", report.backend},
+                      {"simd", report.simd},
+                      {"threads", report.threads}}},
+                    {"flake_memory", report.flake_memory}};
+    if (report.gl)
+        machine["gl"] = {{"platform", report.gl->platform},
+                         {"renderer", report.gl->renderer},
+                         {"vendor", report.gl->vendor},
+                         {"version", report.gl->version},
+                         {"software", report.gl->software}};
+    else
+        machine["gl"] = {{"skipped", report.no_gl_because}};
+    return machine;
+}
+
+Json counts_json(const FlakeCounts& c)
+{
+    return {{"emitted", c.emitted},
+            {"alive", c.alive},
+            {"left", c.left},
+            {"landed", c.landed},
+            {"vanished", c.vanished},
+            {"withheld", c.withheld},
+            {"balance",
+             {{"rule", "emitted = alive + left + landed + vanished"},
+              {"difference", imbalance(c)},
+              {"holds", imbalance(c) == 0}}}};
+}
+
+Json stages_json(const std::vector<StageSummary>& stages)
+{
+    Json result = Json::object();
+    for (const StageSummary& s : stages)
+        result[s.name] = {
+            {"median", s.median_ms}, {"p95", s.p95_ms}, {"total", s.total_ms}, {"samples", s.samples}};
+    return result;
+}
+
+Json passes_json(const std::vector<PassHistory>& passes)
+{
+    Json result = Json::array();
+    for (const PassHistory& p : passes)
+        result.push_back({{"pass", p.name},
+                          {"frames_run", p.ran},
+                          {"frames_skipped", p.skipped},
+                          {"run_because", p.ran_because},
+                          {"skipped_because", p.skipped_because}});
+    return result;
+}
+
+Json skips_json(const RunReport& report)
+{
+    Json result = Json::array();
+    for (const Skip& skip : report.skips) result.push_back({{"what", skip.what}, {"why", skip.why}});
+    for (const PassHistory& pass : report.passes)
+        for (const std::string& why : pass.skipped_because)
+            result.push_back({{"what", "pass " + pass.name}, {"why", why}});
+    return result;
+}
+
+Json memory_json(const RunReport& report, const World& world)
+{
+    const double capacity = static_cast<double>(world.capacity);
+    return {{"capacity", world.capacity},
+            {"bytes_per_particle",
+             {{"state", kStateBytesPerFlake},
+              {"draw_list", kDrawListBytesPerFlake},
+              {"all_buffers", capacity > 0 ? static_cast<double>(report.buffer_bytes) / capacity : 0.0}}},
+            {"flake_buffers_bytes", report.buffer_bytes},
+            {"voxels",
+             {{"cells", {world.voxels.nx, world.voxels.ny, world.voxels.nz}},
+              {"bytes", world.voxels.clearance.size() + world.voxels.surface.size()}}},
+            {"wind",
+             {{"cells", {world.wind.nx, world.wind.ny, world.wind.nz}},
+              {"bytes", world.wind.cells.size() * sizeof(WindCell)}}},
+            {"peak_resident_bytes", peak_resident_bytes()}};
+}
+
+Json drawn_json(const DrawnFlakes& flakes)
+{
+    return {{"sort", flakes.sort.strategy},
+            {"depth_bits", flakes.sort.depth_bits},
+            {"drawn_median", quantile(flakes.drawn, 0.5)},
+            {"culled_median", quantile(flakes.culled, 0.5)}};
+}
+
+}  // namespace
+
+std::int64_t imbalance(const FlakeCounts& c)
+{
+    return static_cast<std::int64_t>(c.emitted - (c.alive + c.left + c.landed + c.vanished));
+}
+
+std::string hash_text(std::uint64_t hash)
+{
+    return fmt::format("{:016x}", hash);
+}
+
+std::vector<Skip> simulation_skips(const World& world)
+{
+    std::vector<Skip> skips;
+    if (!world.wind.turbulent)
+        skips.push_back({"turbulence", "the scene's wind has none: q is neither read nor written"});
+    if (world.voxels.nx == 0)
+        skips.push_back({"cell-by-cell walk", "the scene has no solids but the ground"});
+    if (!world.has_ground) skips.push_back({"ground contact", "the scene has no ground plane"});
+    if (world.anchors.empty()) skips.push_back({"moving skies", "no emitter follows a camera or vehicle"});
+    return skips;
+}
+
+void write_report(const std::filesystem::path& file, const RunReport& report, const scene::Scene& scene,
+                  const World& world)
+{
+    Json json = {{"spindrift", build_json()},
+                 {"scene", {{"name", scene.name}, {"file", scene.file.string()}, {"seed", world.seed}}}};
+    json.update(machine_json(report));
+    json["picture"] = {{"width_px", scene.render.width_px},
+                       {"height_px", scene.render.height_px},
+                       {"frames_per_s", scene.render.frames_per_s},
+                       {"files", report.outputs}};
+    json["interrupted"] = report.interrupted;
+    json["steps"] = report.steps;
+    json["step_s"] = world.step_s;
+    json["frames"] = report.frames;
+    json["wall_s"] = report.wall_s;
+    json["state_hash"] = hash_text(report.state_hash);
+    json["counts"] = counts_json(report.counts);
+    json["draw_list"] = drawn_json(report.flakes);
+    json["stages_ms"] = stages_json(report.stages);
+    json["passes"] = passes_json(report.passes);
+    json["skipped"] = skips_json(report);
+    json["memory"] = memory_json(report, world);
+    json["gl_errors"] = report.gl_errors;
+    const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    image::write_whole(file, std::as_bytes(std::span(text)));
+}
+
+}  // namespace spindrift::app

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "gl/active_lights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scene/make_world.h"
+
+namespace spindrift::gl
+{
+
+namespace
+{
+
+bool shines(const scene::Light& light)
+{
+    return light.exists && light.on &&
+           (light.intensity.r > 0 || light.intensity.g > 0 || light.intensity.b > 0);
+}
+
+bool lit_at(const scene::Light& light, double time_s)
+{
+    if (!light.flashing) return true;
+    const double cycles = time_s * light.flash_rate_hz + light.flash_phase;
+    return cycles - std::floor(cycles) < light.flash_duty;
+}
+
+Vec3f to_float(const Vec3d& v)
+{
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+Vec3f local_position(const scene::Scene& scene, const scene::Light& light, double time_s)
+{
+    if (!light.vehicle.empty())
+        for (const scene::VehicleSettings& vehicle : scene.vehicles)
+            if (vehicle.name == light.vehicle)
+                return scene::vehicle_at(vehicle, scene.domain, time_s) + to_float(light.position_m);
+    return to_float(light.position_m - scene.domain.min_m);
+}
+
+/// Whether a ball touches the pyramid that the camera sees, guard band included. Errs towards yes.
+bool in_sight(const View& view, const Vec3f& centre, float radius_m)
+{
+    const Vec3f rel = centre - view.eye;
+    const float z = dot(rel, view.forward);
+    if (z < -radius_m || z > view.far_m + radius_m) return false;
+    const float height = static_cast<float>(view.height_px);
+    const float width = static_cast<float>(view.width_px);
+    const float tan_y = view.tan_half_fov_y * (1 + 2 * view.guard_px / height);
+    const float tan_x = view.tan_half_fov_y * (width + 2 * view.guard_px) / height;
+    const auto beyond_side = [&](float across, float tangent)
+    { return (std::abs(across) - z * tangent) / std::sqrt(1 + tangent * tangent) > radius_m; };
+    return !beyond_side(dot(rel, view.right), tan_x) && !beyond_side(dot(rel, view.up), tan_y);
+}
+
+float cosine_deg(double degrees)
+{
+    return static_cast<float>(std::cos(degrees * std::numbers::pi / 180.0));
+}
+
+PackedLight pack(const scene::Light& light, const Vec3f& position_m)
+{
+    PackedLight packed;
+    const Vec3f way = to_float(light.direction);
+    packed.direction = {way.x, way.y, way.z, 0};
+    packed.intensity = {light.intensity.r, light.intensity.g, light.intensity.b, static_cast<float>(light.g)};
+    packed.limits = {1, 0, 0, 0};
+    if (light.kind == scene::LightKind::directional)
+    {
+        packed.place = {-way.x, -way.y, -way.z, 0};
+        return packed;
+    }
+    packed.place = {position_m.x, position_m.y, position_m.z, 1};
+    packed.limits[1] = std::isfinite(light.range_m) ? static_cast<float>(1.0 / light.range_m) : 0.0F;
+    if (light.kind == scene::LightKind::spot)
+    {
+        const float outer = cosine_deg(light.outer_cone_deg);
+        const float scale = 1.0F / std::max(0.001F, cosine_deg(light.inner_cone_deg) - outer);
+        packed.direction[3] = scale;
+        packed.limits[0] = -outer * scale;
+    }
+    return packed;
+}
+
+}  // namespace
+
+ActiveLights active_lights(const scene::Scene& scene, std::span<const scene::Light> model_lights,
+                           const View& view, double time_s)
+{
+    ActiveLights active;
+    const auto consider = [&](const scene::Light& light)
+    {
+        if (!shines(light))
+        {
+            ++active.absent;
+            return;
+        }
+        if (!lit_at(light, time_s))
+        {
+            ++active.dark_now;
+            return;
+        }
+        const Vec3f position = local_position(scene, light, time_s);
+        const bool bounded = light.kind != scene::LightKind::directional && std::isfinite(light.range_m);
+        if (bounded && !in_sight(view, position, static_cast<float>(light.range_m)))
+            ++active.out_of_range;
+        else
+            active.lights.push_back(pack(light, position));
+    };
+    for (const scene::Light& light : scene.lights) consider(light);
+    for (const scene::Light& light : model_lights) consider(light);
+    return active;
+}
+
+}  // namespace spindrift::gl

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "core/view.h"
+#include "scene/scene.h"
+
+namespace spindrift::gl
+{
+
+/// One light as shaders/lights.glsl reads it (std430).
+struct PackedLight
+{
+    using Vec4 = std::array<float, 4>;
+    Vec4 place{};
+    Vec4 direction{};
+    Vec4 intensity{};
+    Vec4 limits{};
+};
+
+/// The lights that count in a frame, and why the others do not.
+struct ActiveLights
+{
+    std::vector<PackedLight> lights;
+    int absent = 0;        ///< do not exist, are off or have no intensity
+    int dark_now = 0;      ///< flash, and are in the dark part of their period
+    int out_of_range = 0;  ///< their range does not touch what the camera sees
+};
+
+/// Lights of the scene and of its models at the display time, in the local frame. Pure. Leaving a light out
+/// changes no pixel.
+ActiveLights active_lights(const scene::Scene& scene, std::span<const scene::Light> model_lights,
+                           const View& view, double time_s);
+
+}  // namespace spindrift::gl

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include "core/backend.h"
+#include "core/view.h"
+#include "gl/flake_buffers.h"
+#include "gl/object.h"
+#include "gl/program.h"
+#include "scene/scene.h"
+
+namespace spindrift::gl
+{
+
+/// What of a frame the flakes' drawing depends on beside the frame constants.
+struct FlakeDraw
+{
+    const View& view;
+    const DrawList& list;
+    GLuint scene_depth;  ///< copy of the scene's depth; 0: nothing to fade into
+    float largest_radius_px;
+};
+
+/// Draws flakes as points that the vertex shader pulls from the simulation's own buffers.
+class FlakePass
+{
+  public:
+    FlakePass(const scene::RenderSettings& settings, double weight, const FlakeBuffers& buffers);
+
+    void draw(const FlakeDraw& what) const;
+
+    /// Largest flake diameter (m) before flake_scale; docs/drawing.md.
+    static constexpr double kLargestDiameter = 0.020;
+    /// Radius (px) from which a flake shows its crystal.
+    static constexpr double kCrystalRadius = 3.0;
+
+  private:
+    enum Detail : std::size_t
+    {
+        kPlain,
+        kCrystal,
+    };
+    void bind(const FlakeDraw& what) const;
+    void set_blending() const;
+    GLsizei count_plain(const FlakeDraw& what) const;
+    void draw_range(Detail detail, GLsizei first, GLsizei count, bool has_scene) const;
+
+    scene::RenderSettings settings_;
+    const FlakeBuffers& buffers_;
+    std::array<Program, 2> programs_;  // by Detail
+    VertexArray nothing_;
+};
+
+}  // namespace spindrift::gl

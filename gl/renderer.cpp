@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: MIT
+#include "gl/renderer.h"
+
+#include <GL/glew.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "gl/active_lights.h"
+#include "gl/crystal_texture.h"
+#include "gl/flake_pass.h"
+#include "gl/frame_constants.h"
+#include "gl/full_screen_pass.h"
+#include "gl/pass_timers.h"
+#include "gl/picture.h"
+#include "gl/scene_pass.h"
+#include "scene/crystals.h"
+
+namespace spindrift::gl
+{
+
+namespace
+{
+
+// Radius at which software GL's points end (255 px across); docs/drawing.md.
+constexpr float kLargestPointRadius = 127.0F;
+
+float largest_radius_px(const View& view)
+{
+    std::array<GLfloat, 2> range{1, 1};
+    glGetFloatv(GL_POINT_SIZE_RANGE, range.data());
+    return std::min({std::round(view.guard_px), kLargestPointRadius, 0.5F * range[1]});
+}
+
+FrameConstants::Vec4 vec4(const Vec3f& v, float w)
+{
+    return {v.x, v.y, v.z, w};
+}
+FrameConstants::Vec4 vec4(const scene::Colour& c, float w)
+{
+    return {c.r, c.g, c.b, w};
+}
+
+// 1 / Lambda of the size spectrum.
+float mean_melted_mm(const Snow& snow)
+{
+    const bool gunn = snow.spectrum == SizeSpectrum::gunn_marshall;
+    return static_cast<float>(gunn ? std::pow(snow.rate_mm_h, 0.48) / 2.55
+                                   : std::pow(snow.rate_mm_h, 0.45) / 2.29);
+}
+
+}  // namespace
+
+struct Renderer::Impl
+{
+    scene::Scene scene;
+    Snow snow;
+    std::uint64_t seed;
+    std::vector<scene::Light> model_lights;
+    const std::vector<scene::CrystalMask>& masks = scene::crystal_masks();
+    Texture mask_texture;
+    Picture picture;
+    ScenePass scene_pass;
+    FullScreenPass sky, tone;
+    FlakePass flakes;
+    Buffer frame_block;
+    Buffer light_buffer;
+    std::size_t light_room = 0;
+    PassTimers timers;
+    GLsync flakes_read = nullptr;
+
+    Impl(const scene::Scene& s, const scene::Geometry& geometry, const World& w, const FlakeBuffers& buffers,
+         int width, int height)
+        : scene(s),
+          snow(w.snow),
+          seed(w.seed),
+          model_lights(geometry.model_lights),
+          mask_texture(make_crystal_texture(masks)),
+          picture(width, height),
+          scene_pass(s, geometry),
+          sky("sky.vert", "sky.frag"),
+          tone("tone.vert", "tone.frag"),
+          flakes(s.render, static_cast<double>(w.snow.weight), buffers),
+          frame_block(make_buffer(sizeof(FrameConstants), nullptr, GL_DYNAMIC_STORAGE_BIT))
+    {
+    }
+    ~Impl()
+    {
+        if (flakes_read != nullptr) glDeleteSync(flakes_read);
+    }
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+
+    void upload_lights(const std::vector<PackedLight>& lights);
+    FrameConstants constants(const View& view, std::size_t lights, double time_s) const;
+    void draw_solid(const FramePlan& plan, double time_s);
+    void draw_flakes(const FramePlan& plan, const View& view, const DrawList& list);
+    void draw_tone(const FramePlan& plan);
+
+    template <class Draw>
+    void timed(const char* name, const Draw& draw)
+    {
+        timers.begin(name);
+        draw();
+        timers.end();
+    }
+};
+
+void Renderer::Impl::upload_lights(const std::vector<PackedLight>& lights)
+{
+    if (lights.size() > light_room || !light_buffer)
+    {
+        light_room = std::max<std::size_t>(lights.size() * 2, 8);
+        light_buffer = make_buffer(static_cast<GLsizeiptr>(light_room * sizeof(PackedLight)), nullptr,
+                                   GL_DYNAMIC_STORAGE_BIT);
+    }
+    if (!lights.empty())
+        glNamedBufferSubData(light_buffer.name(), 0,
+                             static_cast<GLsizeiptr>(lights.size() * sizeof(PackedLight)), lights.data());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kLights, light_buffer.name());
+}
+
+FrameConstants Renderer::Impl::constants(const View& view, std::size_t lights, double time_s) const
+{
+    const auto width = static_cast<float>(view.width_px);
+    const auto height = static_cast<float>(view.height_px);
+    const float tan_y = view.tan_half_fov_y;
+    const float guard = std::round(view.guard_px);
+    const auto scale = static_cast<float>(scene.render.flake_scale);
+    FrameConstants c;
+    c.eye_time = vec4(view.eye, static_cast<float>(time_s));
+    c.right_tan = vec4(view.right, tan_y * width / height);
+    c.up_tan = vec4(view.up, tan_y);
+    c.forward_near = vec4(view.forward, view.near_m);
+    c.ambient_far = vec4(scene.sky.ambient, view.far_m);
+    c.zenith_exposure = vec4(scene.sky.zenith, static_cast<float>(scene.render.exposure));
+    c.horizon_focal = vec4(scene.sky.horizon, height / (2 * tan_y));
+    c.look = {mean_melted_mm(snow), scale, static_cast<float>(scene.render.flake_opacity),
+              snow.weight / (scale * scale)};
+    c.sprite = {largest_radius_px(view), width / (width + 2 * guard), height / (height + 2 * guard), guard};
+    c.counts = {static_cast<std::uint32_t>(lights), static_cast<std::uint32_t>(seed),
+                static_cast<std::uint32_t>(masks.size()), 0};
+    c.picture = {width, height, 0, 0};
+    for (std::size_t i = 0; i < masks.size(); ++i)
+        c.mask_means[i / 4][i % 4] = static_cast<float>(masks[i].mean);
+    return c;
+}
+
+void Renderer::Impl::draw_solid(const FramePlan& plan, double time_s)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, picture.linear_target.name());
+    glViewport(0, 0, picture.width, picture.height);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_BLEND);
+    glDisable(GL_CULL_FACE);
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    constexpr GLfloat far_depth = 0;
+    glClearNamedFramebufferfv(picture.linear_target.name(), GL_DEPTH, 0, &far_depth);
+    if (plan.runs("scene"))
+    {
+        glDepthFunc(GL_GREATER);
+        timed("scene", [&] { scene_pass.draw(time_s); });
+    }
+    glDepthMask(GL_FALSE);
+    if (plan.runs("sky"))
+    {
+        glDepthFunc(GL_GEQUAL);
+        timed("sky", [&] { sky.draw(); });
+    }
+}
+
+void Renderer::Impl::draw_flakes(const FramePlan& plan, const View& view, const DrawList& list)
+{
+    const bool fades = plan.runs("fade");
+    if (fades) timed("fade", [&] { picture.copy_depth(); });
+    if (!plan.runs("flakes")) return;
+    glBindTextureUnit(kMasks, mask_texture.name());
+    timed("flakes",
+          [&] {
+              flakes.draw({view, list, fades ? picture.depth_copy.name() : 0, largest_radius_px(view)});
+          });
+    if (flakes_read != nullptr) glDeleteSync(flakes_read);
+    flakes_read = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+}
+
+void Renderer::Impl::draw_tone(const FramePlan& plan)
+{
+    if (!plan.runs("tone")) return;
+    glBindFramebuffer(GL_FRAMEBUFFER, picture.display_target.name());
+    glDisable(GL_DEPTH_TEST);
+    glBindTextureUnit(0, picture.linear.name());
+    timed("tone", [&] { tone.draw(); });
+}
+
+Renderer::Renderer(const scene::Scene& scene, const scene::Geometry& geometry, const World& world,
+                   const FlakeBuffers& buffers, int width_px, int height_px)
+    : impl_(std::make_unique<Impl>(scene, geometry, world, buffers, width_px, height_px))
+{
+}
+Renderer::~Renderer() = default;
+
+void Renderer::draw(const FramePlan& plan, const View& view, const DrawList& flakes, double time_s)
+{
+    Impl& m = *impl_;
+    if (view.width_px != m.picture.width || view.height_px != m.picture.height)
+        resize(view.width_px, view.height_px);
+    m.timers.begin_frame();
+    const std::vector<PackedLight> lights = plan.runs("lights")
+                                                ? active_lights(m.scene, m.model_lights, view, time_s).lights
+                                                : std::vector<PackedLight>{};
+    m.upload_lights(lights);
+    const FrameConstants constants = m.constants(view, lights.size(), time_s);
+    glNamedBufferSubData(m.frame_block.name(), 0, sizeof(constants), &constants);
+    glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBlock, m.frame_block.name());
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    m.draw_solid(plan, time_s);
+    m.draw_flakes(plan, view, flakes);
+    m.draw_tone(plan);
+}
+
+void Renderer::wait_for_flakes() const
+{
+    if (impl_->flakes_read == nullptr) return;
+    constexpr GLuint64 kSecond = 1'000'000'000;
+    while (glClientWaitSync(impl_->flakes_read, GL_SYNC_FLUSH_COMMANDS_BIT, kSecond) == GL_TIMEOUT_EXPIRED)
+    {
+        // The GPU is still at it.
+    }
+}
+
+void Renderer::resize(int width_px, int height_px)
+{
+    if (width_px != impl_->picture.width || height_px != impl_->picture.height)
+        impl_->picture = Picture(width_px, height_px);
+}
+
+image::Image Renderer::read_linear() const
+{
+    const Picture& picture = impl_->picture;
+    const std::size_t row = static_cast<std::size_t>(picture.width) * 4;
+    const auto rows = static_cast<std::size_t>(picture.height);
+    std::vector<float> pixels(row * rows);
+    glGetTextureImage(picture.linear.name(), 0, GL_RGBA, GL_FLOAT, static_cast<GLsizei>(pixels.size() * 4),
+                      pixels.data());
+    image::Image image(picture.width, picture.height);
+    for (std::size_t y = 0; y < rows; ++y)
+        std::copy_n(&pixels[(rows - 1 - y) * row], row, &image.rgba[y * row]);
+    return image;
+}
+
+image::Image8 Renderer::read_display() const
+{
+    const Picture& picture = impl_->picture;
+    const auto columns = static_cast<std::size_t>(picture.width);
+    const auto rows = static_cast<std::size_t>(picture.height);
+    std::vector<unsigned char> pixels(columns * rows * 4);
+    glGetTextureImage(picture.display.name(), 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                      static_cast<GLsizei>(pixels.size()), pixels.data());
+    image::Image8 image{picture.width, picture.height, std::vector<unsigned char>(columns * rows * 3)};
+    for (std::size_t y = 0; y < rows; ++y)
+        for (std::size_t x = 0; x < columns; ++x)
+            std::copy_n(&pixels[((rows - 1 - y) * columns + x) * 4], 3, &image.rgb[(y * columns + x) * 3]);
+    return image;
+}
+
+void Renderer::present(int framebuffer_width, int framebuffer_height)
+{
+    const Picture& picture = impl_->picture;
+    const bool same = framebuffer_width == picture.width && framebuffer_height == picture.height;
+    glBlitNamedFramebuffer(picture.display_target.name(), 0, 0, 0, picture.width, picture.height, 0, 0,
+                           framebuffer_width, framebuffer_height, GL_COLOR_BUFFER_BIT,
+                           same ? GL_NEAREST : GL_LINEAR);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+std::vector<PassTime> Renderer::times() const
+{
+    std::vector<PassTime> times;
+    for (const PassTimers::Time& time : impl_->timers.times()) times.push_back({time.name, time.ms});
+    return times;
+}
+
+}  // namespace spindrift::gl

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "gl/object.h"
+#include "gl/program.h"
+#include "scene/mesh.h"
+#include "scene/scene.h"
+
+namespace spindrift::gl
+{
+
+/// Draws the solid things: meshes, those on vehicles at their place, and the ground plane to the far plane.
+class ScenePass
+{
+  public:
+    ScenePass(const scene::Scene& scene, const scene::Geometry& geometry);
+    void draw(double time_s) const;
+
+  private:
+    struct Part
+    {
+        GLsizei count;
+        std::size_t first_byte;
+        scene::Material material;
+    };
+    struct Body
+    {
+        Buffer vertices, indices;
+        VertexArray array;
+        std::vector<Part> parts;
+        std::optional<scene::VehicleSettings> vehicle;
+    };
+    Body make_body(const scene::Scene& scene, const scene::Mesh& mesh) const;
+
+    Program program_, ground_program_;
+    VertexArray nothing_;
+    std::vector<Body> bodies_;
+    scene::DomainSettings domain_;
+    std::optional<scene::Material> ground_;
+    float ground_m_ = 0;
+};
+
+}  // namespace spindrift::gl

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// One flake: pulled from the simulation's own arrays by the sorted list, sized, lit and placed.
+// LARGE: flakes that may be 3 px or more in radius; they carry what the crystal and the imposter need.
+#include "frame.glsl"
+#include "flake_look.glsl"
+#include "lights.glsl"
+layout(std430, binding = 0) readonly buffer XArray { float x_m[]; };
+layout(std430, binding = 1) readonly buffer YArray { float y_m[]; };
+layout(std430, binding = 2) readonly buffer ZArray { float z_m[]; };
+layout(std430, binding = 3) readonly buffer IdArray { uint ids[]; };
+layout(std430, binding = 4) readonly buffer DrawList { uvec2 draw_list[]; };  // slot, depth key
+layout(binding = 0) uniform sampler2D scene_depth;
+layout(location = 0) uniform int has_scene;  // scene_depth holds something
+
+flat out vec4 glow;  // radiance (LARGE: of the lights alone), opacity at the centre
+#ifdef LARGE
+flat out vec4 lamp;   // unit vector towards the lights (right, up, viewer), share of crystal and imposter
+flat out vec4 shape;  // cosine and sine of the angle, mip level, layer
+flat out vec3 fade;   // depth (m), 1 / length of the fade (1/m) or -1: .x is the share that is left; mean of the mask
+#elif defined(WEIGHTED)
+flat out float kept;  // share of alpha that is left where the flake cuts into the scene
+#endif
+
+const float kSmallest = 0.75;  // px, radius
+const float kLargestRadiance = 6e4;
+
+bool finite(float v) { return (floatBitsToUint(v) & 0x7f800000u) != 0x7f800000u; }
+
+vec3 scattered(vec3 p, vec3 to_eye, out vec3 towards)
+{
+    vec3 sum = vec3(0.0);
+    towards = vec3(0.0);
+    for (uint i = 0u; i < counts.x; ++i)
+    {
+        vec3 to_light;
+        vec3 e = irradiance(lights[i], p, to_light);
+        float mu = clamp(-dot(to_light, to_eye), -1.0, 1.0);
+        sum += e * phase(lights[i].intensity.w, mu);
+        towards += to_light * dot(e, vec3(0.2126, 0.7152, 0.0722));
+    }
+    return sum;
+}
+
+// Share of the flake that is left where it cuts into the scene, looked up once at its centre. Behind the scene the
+// depth test decides pixel by pixel.
+float soft_edge(vec4 clip, float z, float length_m)
+{
+    if (has_scene == 0) return 1.0;
+    vec2 at = (clip.xy / (clip.w * sprite.yz) * 0.5 + 0.5) * picture.xy;
+    ivec2 pixel = clamp(ivec2(floor(at)), ivec2(0), ivec2(picture.xy) - 1);
+    float gap = scene_z(texelFetch(scene_depth, pixel, 0).r) - z;
+    return gap > 0.0 ? min(gap / length_m, 1.0) : 1.0;
+}
+
+void hide()
+{
+    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    gl_PointSize = 1.0;
+}
+
+void main()
+{
+    uint slot = draw_list[gl_VertexID].x;
+    vec3 p = vec3(x_m[slot], y_m[slot], z_m[slot]);
+    uint base = mix32(ids[slot] ^ counts.y);
+    vec3 v = view_from_local(p);
+
+    float radius_m = 0.5 * flake_diameter(look_unit(look_hash(base, 0u)), look.x) * look.y;
+    float z = v.z;
+    float near = forward_near.w;
+    if (!finite(p.x + p.y + p.z) || !(z > near) || !(z < ambient_far.w))
+    {
+        hide();
+        return;
+    }
+    vec4 clip = clip_from_view(v, sprite.yz);
+    float r = radius_m * horizon_focal.w / z;
+    float drawn = clamp(r, kSmallest, sprite.x);
+    gl_Position = clip;
+    gl_PointSize = 2.0 * drawn;
+
+    vec3 towards;
+    vec3 to_eye = (eye_time.xyz - p) * inversesqrt(dot(v, v));
+    vec3 lit = scattered(p, to_eye, towards);
+#ifdef OPAQUE
+    glow = vec4(min(ambient_far.rgb + lit, kLargestRadiance), 1.0);
+#else
+    float small = min(r / kSmallest, 1.0);
+    float opacity = small * small * clamp((z - near) / (3.0 * near), 0.0, 1.0);
+    float length_m = max(radius_m, 0.05);
+    float mean = 1.0;
+    uint which = look_hash(base, 1u) % counts.z;
+#ifndef POINT_SPRITE
+    opacity *= look.z;
+    mean = mask_means[which >> 2][which & 3u];
+#endif
+#ifdef LARGE
+    float turn = look_unit(look_hash(base, 2u)) + (look_unit(look_hash(base, 3u)) - 0.5) * eye_time.w;
+    float angle = 6.283185307 * fract(turn);
+    float strength = length(towards);
+    vec3 l = strength > 0.0 ? towards / strength : vec3(0.0);
+    glow = vec4(lit, opacity);
+    lamp = vec4(dot(l, right_tan.xyz), dot(l, up_tan.xyz), -dot(l, forward_near.xyz), clamp((r - 3.0) / 3.0, 0.0, 1.0));
+    shape = vec4(cos(angle), sin(angle), max(log2(64.0 / drawn), 0.0), float(which));
+    fade = r < 3.0 || has_scene == 0 ? vec3(soft_edge(clip, z, length_m), -1.0, mean) : vec3(z, 1.0 / length_m, mean);
+#else
+    glow = vec4(min(ambient_far.rgb + lit, kLargestRadiance), opacity * mean);
+#ifdef WEIGHTED
+    kept = soft_edge(clip, z, length_m);
+#else
+    glow.a *= soft_edge(clip, z, length_m);
+#endif
+#endif
+#endif
+}

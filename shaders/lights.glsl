@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// The lights that are on at the display time of the frame; gl/active_lights.h packs them.
+struct Light
+{
+    vec4 place;      // point, spot: position (m), 1; directional: the unit vector towards the light, 0
+    vec4 direction;  // the way it travels; factor of the spot term
+    vec4 intensity;  // W/sr or W/m2; asymmetry g
+    vec4 limits;     // offset of the spot term, 1 / range, 0, 0
+};
+layout(std430, binding = 5) readonly buffer Lights { Light lights[]; };
+
+const float kNearestLight = 0.05;  // m
+
+// Irradiance of light i at p on a surface that faces it; to_light is the unit vector towards it.
+vec3 irradiance(Light light, vec3 p, out vec3 to_light)
+{
+    vec3 way = light.place.xyz - p * light.place.w;
+    float d = max(length(way), 1e-6);
+    to_light = way / d;
+    float spot = clamp(-dot(to_light, light.direction.xyz) * light.direction.w + light.limits.x, 0.0, 1.0);
+    float u = d * light.limits.y;
+    float window = max(1.0 - u * u * u * u, 0.0);
+    float near = mix(1.0, max(d, kNearestLight), light.place.w);
+    return light.intensity.rgb * (spot * spot * window / (near * near));
+}
+
+// Henyey-Greenstein (Astrophys. J. 93, 1941) in the form that is stable near |g| = 1; mu = 1: straight on.
+float phase(float g, float mu)
+{
+    float a = 1.0 - g;
+    float d = max(a * a + 2.0 * g * (1.0 - mu), 1e-10);
+    return (1.0 - g * g) / (12.566370614 * d * sqrt(d));
+}

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "gl/frame_plan.h"
+
+#include <gtest/gtest.h>
+
+#include "gl/active_lights.h"
+
+namespace spindrift::gl
+{
+namespace
+{
+
+struct PlanTest : testing::Test
+{
+    scene::Scene scene;
+    View view;
+    FrameStats stats;
+
+    PlanTest()
+    {
+        stats.counts.alive = 1000;
+        scene::Light lamp;
+        lamp.position_m = {0, 10, 0};
+        scene.lights.push_back(lamp);
+    }
+    FramePlan plan(double time_s = 0) const { return plan_frame(scene, view, stats, time_s); }
+    std::string reason(const std::string& name, double time_s = 0) const
+    {
+        for (const PlannedPass& pass : plan(time_s).passes)
+            if (pass.name == name) return pass.reason;
+        return "";
+    }
+};
+
+TEST_F(PlanTest, RunsEverythingWhereEverythingIsNeeded)
+{
+    const FramePlan p = plan();
+    for (const char* name : {"cull", "sort", "lights", "scene", "sky", "fade", "flakes", "tone"})
+        EXPECT_TRUE(p.runs(name)) << name;
+    EXPECT_FALSE(p.runs("bloom"));
+}
+
+TEST_F(PlanTest, NoFlakesNothingToCullSortFadeOrDraw)
+{
+    stats.counts.alive = 0;
+    for (const char* name : {"cull", "sort", "fade", "flakes"})
+    {
+        EXPECT_FALSE(plan().runs(name)) << name;
+        EXPECT_NE(reason(name).find("no flakes"), std::string::npos);
+    }
+    EXPECT_TRUE(plan().runs("scene"));
+    EXPECT_TRUE(plan().runs("lights")) << "surfaces are lit too";
+}
+
+TEST_F(PlanTest, AdditiveAndOpaqueNeedNoSort)
+{
+    scene.render.blending = scene::Blending::additive;
+    EXPECT_FALSE(plan().runs("sort"));
+    EXPECT_TRUE(plan().runs("cull"));
+    EXPECT_TRUE(plan().runs("fade"));
+    scene.render.blending = scene::Blending::opaque;
+    EXPECT_FALSE(plan().runs("sort"));
+    EXPECT_FALSE(plan().runs("fade"));
+    EXPECT_TRUE(plan().runs("flakes"));
+}
+
+TEST_F(PlanTest, RestNeedsNoNewSort)
+{
+    stats.flakes_moved = false;
+    EXPECT_TRUE(plan().runs("sort")) << "the camera still moves";
+    stats.camera_moved = false;
+    EXPECT_FALSE(plan().runs("sort"));
+    EXPECT_FALSE(plan().runs("cull"));
+    EXPECT_TRUE(plan().runs("flakes"));
+}
+
+TEST_F(PlanTest, DarkLightsLeaveTheScatteringLoopOut)
+{
+    scene.lights.front().on = false;
+    EXPECT_FALSE(plan().runs("lights"));
+    EXPECT_NE(reason("lights").find("off"), std::string::npos);
+    scene.lights.clear();
+    EXPECT_FALSE(plan().runs("lights"));
+    const std::vector<scene::Light> lamp(1);
+    EXPECT_TRUE(plan_frame(scene, view, stats, 0, lamp).runs("lights")) << "a model brings its own";
+}
+
+TEST_F(PlanTest, FlashingFollowsTheDisplayTime)
+{
+    scene::Light& lamp = scene.lights.front();
+    lamp.flashing = true;
+    lamp.flash_rate_hz = 2;
+    lamp.flash_duty = 0.25;
+    lamp.flash_phase = 0.5;
+    // Ahead by half a period of 0.5 s: on in [0.25, 0.375) s.
+    EXPECT_FALSE(plan(0.24).runs("lights"));
+    EXPECT_TRUE(plan(0.26).runs("lights"));
+    EXPECT_TRUE(plan(0.37).runs("lights"));
+    EXPECT_FALSE(plan(0.38).runs("lights"));
+    EXPECT_TRUE(plan(100.26).runs("lights"));
+    EXPECT_NE(reason("lights", 0.1).find("flash"), std::string::npos);
+}
+
+TEST_F(PlanTest, LampsOutOfRangeAreLeftOut)
+{
+    scene::Light& lamp = scene.lights.front();
+    lamp.range_m = 5;
+    EXPECT_TRUE(plan().runs("lights"));
+    lamp.position_m = {0, -20, 0};  // behind the camera
+    EXPECT_FALSE(plan().runs("lights"));
+    EXPECT_NE(reason("lights").find("out of range"), std::string::npos);
+    lamp.position_m = {0, -4, 0};  // behind, but its range reaches in
+    EXPECT_TRUE(plan().runs("lights"));
+    lamp.position_m = {200, 10, 0};  // far to the side
+    EXPECT_FALSE(plan().runs("lights"));
+    lamp.range_m = 300;
+    EXPECT_TRUE(plan().runs("lights"));
+    lamp.kind = scene::LightKind::directional;
+    lamp.range_m = 0.1;
+    EXPECT_TRUE(plan().runs("lights")) << "directional lights have no range";
+}
+
+TEST_F(PlanTest, EmptySceneHidesNothing)
+{
+    scene.ground.kind = scene::GroundKind::none;
+    EXPECT_FALSE(plan().runs("scene"));
+    EXPECT_FALSE(plan().runs("fade"));
+}
+
+TEST_F(PlanTest, EveryPassHasAReasonAndReadsLikeAnExplainedQuery)
+{
+    stats.counts.alive = 0;
+    const FramePlan p = plan();
+    const std::string text = to_text(p);
+    for (const PlannedPass& pass : p.passes)
+    {
+        EXPECT_FALSE(pass.reason.empty()) << pass.name;
+        EXPECT_NE(text.find(pass.name), std::string::npos);
+        EXPECT_NE(text.find(pass.reason), std::string::npos);
+    }
+    EXPECT_NE(text.find("-> tone"), std::string::npos) << text;
+    EXPECT_NE(text.find(" - sort"), std::string::npos) << text;
+}
+
+TEST(ActiveLights, LieInTheLocalFrame)
+{
+    scene::Scene scene;
+    scene.domain.min_m = {100, 200, 300};
+    scene::Light lamp;
+    lamp.position_m = {101, 203, 305};
+    scene.lights.push_back(lamp);
+    const ActiveLights active = active_lights(scene, {}, View{}, 0);
+    ASSERT_EQ(active.lights.size(), 1U);
+    EXPECT_EQ(active.lights[0].place, (PackedLight::Vec4{1, 3, 5, 1}));
+}
+
+}  // namespace
+}  // namespace spindrift::gl
