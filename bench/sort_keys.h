@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace spindrift::bench
+{
+
+enum class KeyPattern
+{
+    random,         ///< uniform over all 32-bit keys
+    nearly_sorted,  ///< ascending but for one pair in fifty, swapped with any other
+    equal,          ///< one key for all
+    camera_sweep,   ///< frames of a camera that moves and turns in a cloud of flakes
+};
+
+std::string_view pattern_name(KeyPattern pattern);
+
+/// The inputs of one series of measurements: pairs (key << 32 | slot), slots ascending.
+class PairSource
+{
+  public:
+    PairSource(KeyPattern pattern, std::size_t n);
+
+    /// The pairs of the next frame; only the camera sweep changes from frame to frame.
+    std::span<const std::uint64_t> next_frame();
+
+  private:
+    std::size_t sweep_camera();
+
+    KeyPattern pattern_;
+    std::size_t frame_ = 0;
+    std::vector<std::uint64_t> pairs_;
+    std::vector<float> x_, y_, z_;  // m; the cloud of the camera sweep
+};
+
+}  // namespace spindrift::bench
