@@ -22,9 +22,12 @@ struct alignas(64) OwnLine  // so that threads do not write to one cache line
     std::uint64_t bits = 0;
 };
 
-void count_run(const std::uint64_t* first, const std::uint64_t* last, Digit digit, std::uint32_t* histogram)
+// Returns the bits in which a pair of the run differs from `sample`.
+std::uint64_t count_run(const std::uint64_t* first, const std::uint64_t* last, std::uint64_t sample,
+                        Digit digit, std::uint32_t* histogram)
 {
     std::fill_n(histogram, digit.values(), 0U);
+    std::uint64_t differing = 0;
     for (; last - first >= 4; first += 4)
     {
         const std::uint64_t a = first[0], b = first[1], c = first[2], d = first[3];
@@ -32,15 +35,13 @@ void count_run(const std::uint64_t* first, const std::uint64_t* last, Digit digi
         ++histogram[digit.of(b)];
         ++histogram[digit.of(c)];
         ++histogram[digit.of(d)];
+        differing |= (a ^ sample) | (b ^ sample) | (c ^ sample) | (d ^ sample);
     }
-    for (; first != last; ++first) ++histogram[digit.of(*first)];
-}
-
-std::uint64_t differing_bits_of_run(const std::uint64_t* first, const std::uint64_t* last,
-                                    std::uint64_t sample)
-{
-    std::uint64_t differing = 0;
-    for (; first != last; ++first) differing |= *first ^ sample;
+    for (; first != last; ++first)
+    {
+        ++histogram[digit.of(*first)];
+        differing |= *first ^ sample;
+    }
     return differing;
 }
 
@@ -119,29 +120,21 @@ Chunks::Chunks(std::size_t n, std::size_t shortest, std::size_t most)
 {
 }
 
-std::uint64_t differing_bits(const std::uint64_t* pairs, const Chunks& chunks)
+std::uint64_t count_digit(const std::uint64_t* pairs, const Chunks& chunks, Digit digit,
+                          std::uint32_t* histograms)
 {
     std::array<OwnLine, kMostChunks> differing{};
     const std::uint64_t sample = pairs[0];
     parallel_for_each_index(chunks.count(),
                             [&](std::size_t chunk)
                             {
-                                differing[chunk].bits = differing_bits_of_run(
-                                    pairs + chunks.begin(chunk), pairs + chunks.end(chunk), sample);
+                                differing[chunk].bits =
+                                    count_run(pairs + chunks.begin(chunk), pairs + chunks.end(chunk), sample,
+                                              digit, histograms + chunk * digit.values());
                             });
     std::uint64_t all = 0;
     for (const OwnLine& line : differing) all |= line.bits;
     return all;
-}
-
-void count_digit(const std::uint64_t* pairs, const Chunks& chunks, Digit digit, std::uint32_t* histograms)
-{
-    parallel_for_each_index(chunks.count(),
-                            [&](std::size_t chunk)
-                            {
-                                count_run(pairs + chunks.begin(chunk), pairs + chunks.end(chunk), digit,
-                                          histograms + chunk * digit.values());
-                            });
 }
 
 void counts_to_places(const Chunks& chunks, Digit digit, std::uint32_t* histograms)

@@ -16,6 +16,7 @@ struct Digit
     std::size_t values() const { return std::size_t{1} << bits; }
     std::uint64_t mask() const { return (std::uint64_t{1} << bits) - 1; }
     std::uint64_t of(std::uint64_t pair) const { return (pair >> shift) & mask(); }
+    bool operator==(const Digit&) const = default;
 };
 
 /// n pairs cut into equal runs, one per thread of the current TBB arena, fewer if they would be short.
@@ -33,15 +34,13 @@ class Chunks
     std::size_t count_;
 };
 
-/// The bits in which the pairs differ at all.
-std::uint64_t differing_bits(const std::uint64_t* pairs, const Chunks& chunks);
-
 /// The stable move of pairs into the order of one digit, in three parallel steps over the same chunks.
 /// `histograms` holds chunks.count() times digit.values() counters, one histogram after the other. n < 2^32.
 /// The outcome does not depend on the number of chunks.
 
-/// Counts the digit's values chunk by chunk.
-void count_digit(const std::uint64_t* pairs, const Chunks& chunks, Digit digit, std::uint32_t* histograms);
+/// Counts the digit's values chunk by chunk. Returns the bits in which the pairs differ at all.
+std::uint64_t count_digit(const std::uint64_t* pairs, const Chunks& chunks, Digit digit,
+                          std::uint32_t* histograms);
 
 /// Turns counts into the place of the next pair of each value and chunk.
 void counts_to_places(const Chunks& chunks, Digit digit, std::uint32_t* histograms);

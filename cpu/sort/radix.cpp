@@ -21,12 +21,16 @@ constexpr int kKeyShift = 32;
 constexpr std::size_t kShortestChunk = 4096;
 constexpr std::size_t kMostChunks = 64;
 
-/// The passes over key bits [low, high): as few as the widest digit allows, of even width.
+/// The passes over the key bits in which keys differ: as few as the widest digit allows, of even width; at
+/// least one.
 class Plan
 {
   public:
-    Plan(int low, int high, int widest)
+    Plan(std::uint32_t differing, int widest)
     {
+        differing = std::max(differing, 1U);
+        const int low = std::countr_zero(differing);
+        const int high = 32 - std::countl_zero(differing);
         count_ = (high - low + widest - 1) / widest;
         for (int pass = 0, at = low; pass < count_; ++pass)
         {
@@ -50,8 +54,16 @@ class Plan
 int widest_digit_bits(std::size_t n)
 {
     constexpr std::size_t kFewPairs = 4096;
-    constexpr std::size_t kManyPairs = std::size_t{3} << 20;
+    constexpr std::size_t kManyPairs = std::size_t{3} << 19;
     return n < kFewPairs || n > kManyPairs ? 8 : 12;
+}
+
+std::uint32_t differing_bits_of_some(const SortJob& job)
+{
+    constexpr std::size_t kSome = 64;
+    std::uint64_t differing = 0;
+    for (std::size_t i = 0; i < kSome; ++i) differing |= job.pairs[i * (job.n / kSome)] ^ job.pairs[0];
+    return static_cast<std::uint32_t>(differing >> kKeyShift);
 }
 
 void insertion_sort(std::uint64_t* pairs, std::size_t n)
@@ -74,20 +86,28 @@ std::uint64_t* sort(const SortJob& job)
         return job.pairs;
     }
     const Chunks chunks(job.n, kShortestChunk, kMostChunks);
-    const std::uint64_t differing = differing_bits(job.pairs, chunks) >> kKeyShift;
-    if (differing == 0) return job.pairs;
     const int widest = widest_digit_bits(job.n);
-    const Plan plan(std::countr_zero(differing), static_cast<int>(std::bit_width(differing)), widest);
     const HistogramLease lease(chunks.count() << widest);
+
+    // Plan for the bits in which a few keys differ; the first count, needed anyway, says in which all of
+    // them do.
+    Plan plan(differing_bits_of_some(job), widest);
+    const auto differing =
+        static_cast<std::uint32_t>(count_digit(job.pairs, chunks, plan[0], lease.counters()) >> kKeyShift);
+    if (differing == 0) return job.pairs;
+    const Plan exact(differing, widest);
+    bool counted = exact[0] == plan[0];
+    plan = exact;
 
     std::uint64_t* from = job.pairs;
     std::uint64_t* to = job.scratch;
     for (std::size_t pass = 0; pass < plan.count(); ++pass)
     {
         const Digit digit = plan[pass];
-        const bool constant = digit.of(differing << kKeyShift) == 0;
+        const bool constant = digit.of(std::uint64_t{differing} << kKeyShift) == 0;
         if (constant) continue;
-        count_digit(from, chunks, digit, lease.counters());
+        if (!counted) count_digit(from, chunks, digit, lease.counters());
+        counted = false;
         counts_to_places(chunks, digit, lease.counters());
         scatter_by_digit(from, to, chunks, digit, lease.counters());
         std::swap(from, to);
