@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "core/math.h"
+#include "core/number.h"
+#include "core/vec.h"
+#include "core/world.h"
+
+namespace spindrift
+{
+
+/// The air at a point: mean velocity and what the whitened Langevin model needs of the turbulence.
+/// Source: docs/physics.md "Wind" and "Turbulence".
+template <class R>
+struct Air
+{
+    Vec3<R> mean;                      ///< m/s
+    R s11, s21, s22, s31, s32, s33;    ///< lower-triangular root of the stress tensor, m/s
+    Vec3<R> div_s;                     ///< d_i S_ij for j = 1, 2, 3, in 1/s
+    Vec3<R> rate;                      ///< relaxation rate of q_j, 1/s
+    R gradient;                        ///< largest |dS/dx|, 1/s
+};
+
+/// S q: the turbulent velocity of a flake, m/s.
+template <class R>
+SPINDRIFT_HD Vec3<R> turbulent_velocity(const Air<R>& air, const Vec3<R>& q)
+{
+    return {air.s11 * q.x, fma(air.s22, q.y, air.s21 * q.x),
+            fma(air.s33, q.z, fma(air.s32, q.y, air.s31 * q.x))};
+}
+
+inline constexpr double kVonKarman = 0.4;
+
+/// The neutral surface layer over a plane (docs/physics.md "Wind"): one matrix scaled by f(z) = u* (1 - d/zi)^(3/4), d the
+/// height above the ground. Made by surface_layer(); plain numbers, so that any thread may have a copy.
+struct SurfaceLayer
+{
+    float friction_velocity_m_s = 0;
+    float ground_m = 0;
+    float inverse_boundary_layer_per_m = 0;
+    float roughness_m = 0.1F;
+    float s11 = 0, s21 = 0, s22 = 0, s31 = 0, s32 = 0, s33 = 0;  ///< root of the stress tensor over f^2
+    float rate1 = 0, rate2 = 0, rate3 = 0;  ///< diagonal of (S^-1 S^-T) f^2, times 5.7 / (2 kappa)
+    float largest_s = 0;
+};
+
+namespace detail
+{
+
+/// Share of the boundary layer that is left above a flake is never taken smaller than this: the closure
+/// ends at zi, and its gradient is infinite there.
+inline constexpr double kLeastLayerShare = 0.02;
+
+}  // namespace detail
+
+/// The closure of Wind: sigma = (2.5, 2.0, 1.3) f along, across and up, u'w' = -f^2 along the wind,
+/// C0 eps = 5.7 u*^3 / (kappa d) (1 - 0.85 d/zi)^1.5.
+inline SurfaceLayer surface_layer(const Wind& wind)
+{
+    const double c = wind.to_x;
+    const double s = wind.to_y;
+    const double along = 2.5 * 2.5;
+    const double across = 2.0 * 2.0;
+    const double up = 1.3 * 1.3;
+    const double xx = along * c * c + across * s * s;
+    const double xy = (along - across) * c * s;
+    const double yy = along * s * s + across * c * c;
+    const double l11 = sqrt(xx);
+    const double l21 = xy / l11;
+    const double l22 = sqrt(yy - l21 * l21);
+    const double l31 = -c / l11;
+    const double l32 = (-s - l31 * l21) / l22;
+    const double l33 = sqrt(up - l31 * l31 - l32 * l32);
+    // columns of the inverse; its row products are the diagonal of S^-1 S^-T
+    const double i11 = 1 / l11;
+    const double i22 = 1 / l22;
+    const double i33 = 1 / l33;
+    const double i21 = -l21 * i11 * i22;
+    const double i32 = -l32 * i22 * i33;
+    const double i31 = -(l31 * i11 + l32 * i21) * i33;
+    const double k = 5.7 / (2 * kVonKarman);
+    const auto f = [](double v) { return static_cast<float>(v); };
+    SurfaceLayer layer;
+    layer.friction_velocity_m_s = wind.friction_velocity_m_s;
+    layer.ground_m = wind.ground_m;
+    layer.inverse_boundary_layer_per_m = f(1.0 / static_cast<double>(wind.boundary_layer_m));
+    layer.roughness_m = wind.roughness_m;
+    layer.s11 = f(l11), layer.s21 = f(l21), layer.s22 = f(l22);
+    layer.s31 = f(l31), layer.s32 = f(l32), layer.s33 = f(l33);
+    layer.rate1 = f(k * i11 * i11);
+    layer.rate2 = f(k * (i21 * i21 + i22 * i22));
+    layer.rate3 = f(k * (i31 * i31 + i32 * i32 + i33 * i33));
+    layer.largest_s = f(max(l11, max(abs(l22), l33)));
+    return layer;
+}
+
+/// Turbulence of a surface layer at height z (m); leaves `air.mean` alone.
+template <class R>
+SPINDRIFT_HD void sample_surface_layer(const SurfaceLayer& layer, const R& z, Air<R>& air)
+{
+    const R one = number<R>(1.0);
+    const R d = max(z - R(layer.ground_m), R(layer.roughness_m));
+    const R part = d * R(layer.inverse_boundary_layer_per_m);
+    const R floor_share = number<R>(detail::kLeastLayerShare);
+    const R share = max(one - part, floor_share);
+    const R root = sqrt(share);
+    const R quarter = sqrt(root);
+    const R f = R(layer.friction_velocity_m_s) * (root * quarter);
+    // f' = -3/4 u* / zi share^(-1/4); nothing changes any more where the share stands at its floor
+    const R slope = select(share > floor_share,
+                           number<R>(-0.75) * R(layer.friction_velocity_m_s) *
+                               R(layer.inverse_boundary_layer_per_m) / quarter,
+                           number<R>(0.0));
+    air.s11 = f * R(layer.s11);
+    air.s21 = f * R(layer.s21);
+    air.s22 = f * R(layer.s22);
+    air.s31 = f * R(layer.s31);
+    air.s32 = f * R(layer.s32);
+    air.s33 = f * R(layer.s33);
+    air.div_s = {slope * R(layer.s31), slope * R(layer.s32), slope * R(layer.s33)};
+    const R decline = max(fma(number<R>(-0.85), part, one), number<R>(0.01));
+    const R scale = R(layer.friction_velocity_m_s) * (decline * sqrt(decline)) / (d * (share * root));
+    air.rate = {scale * R(layer.rate1), scale * R(layer.rate2), scale * R(layer.rate3)};
+    air.gradient = abs(slope) * R(layer.largest_s);
+}
+
+/// The same mean wind everywhere; turbulence of the surface layer.
+struct UniformWind
+{
+    Vec3f mean_m_s{};
+    SurfaceLayer layer;
+
+    template <class R>
+    SPINDRIFT_HD Vec3<R> mean(const Vec3<R>&) const
+    {
+        return {R(mean_m_s.x), R(mean_m_s.y), R(mean_m_s.z)};
+    }
+
+    template <class R>
+    SPINDRIFT_HD Air<R> air(const Vec3<R>& x) const
+    {
+        Air<R> a;
+        a.mean = mean(x);
+        sample_surface_layer(layer, x.z, a);
+        return a;
+    }
+};
+
+/// U(d) = u* / kappa ln((d + z0) / z0) along `to`, calm at the ground.
+struct LogWind
+{
+    SurfaceLayer layer;
+    float to_x = 1, to_y = 0;
+
+    template <class R>
+    SPINDRIFT_HD Vec3<R> mean(const Vec3<R>& x) const
+    {
+        const R z0 = R(layer.roughness_m);
+        const R d = max(x.z - R(layer.ground_m), number<R>(0.0));
+        const R speed = R(layer.friction_velocity_m_s) * number<R>(1.0 / kVonKarman) * log((d + z0) / z0);
+        return {speed * R(to_x), speed * R(to_y), number<R>(0.0)};
+    }
+
+    template <class R>
+    SPINDRIFT_HD Air<R> air(const Vec3<R>& x) const
+    {
+        Air<R> a;
+        a.mean = mean(x);
+        sample_surface_layer(layer, x.z, a);
+        return a;
+    }
+};
+
+/// Cells of a wind grid around a point: the lower corner's index and the shares of the upper ones.
+template <class R>
+struct GridPoint
+{
+    IntOf<R> index;
+    R fx, fy, fz;  ///< in [0, 1]
+};
+
+/// The grid of World::wind; does not own its cells. Outside the centres of the outermost cells their values hold.
+struct GridWind
+{
+    const WindCell* cells = nullptr;
+    int nx = 1, ny = 1, nz = 1;
+    int step_x = 1, step_y = 1, step_z = 1;  ///< to the upper neighbour; 0 along an axis of one cell
+    Vec3f origin_m{};
+    Vec3f per_cell{1, 1, 1};  ///< 1 / cell size
+
+    template <class R>
+    SPINDRIFT_HD GridPoint<R> locate(const Vec3<R>& x) const
+    {
+        GridPoint<R> p;
+        const IntOf<R> ix = axis(x.x, origin_m.x, per_cell.x, nx, p.fx);
+        const IntOf<R> iy = axis(x.y, origin_m.y, per_cell.y, ny, p.fy);
+        const IntOf<R> iz = axis(x.z, origin_m.z, per_cell.z, nz, p.fz);
+        p.index = (iz * IntOf<R>(ny) + iy) * IntOf<R>(nx) + ix;
+        return p;
+    }
+
+    template <class R>
+    SPINDRIFT_HD Vec3<R> mean(const Vec3<R>& x) const
+    {
+        return interpolate_mean(*this, locate(x));
+    }
+
+    template <class R>
+    SPINDRIFT_HD Air<R> air(const Vec3<R>& x) const
+    {
+        return interpolate_air(*this, locate(x));
+    }
+
+  private:
+    template <class R>
+    SPINDRIFT_HD static IntOf<R> axis(const R& x, float origin, float per_cell_, int n, R& share)
+    {
+        const R last = number<R>(static_cast<double>(n - 1));
+        const R at = min(max((x - R(origin)) * R(per_cell_), number<R>(0.0)), last);
+        const IntOf<R> lower = min(truncate_to_int(at), IntOf<R>(n > 1 ? n - 2 : 0));
+        share = at - to_real<R>(lower);
+        return lower;
+    }
+};
+
+inline GridWind grid_wind(const Wind& wind, const WindCell* cells)
+{
+    GridWind g;
+    g.cells = cells;
+    g.nx = wind.nx, g.ny = wind.ny, g.nz = wind.nz;
+    g.step_x = wind.nx > 1 ? 1 : 0;
+    g.step_y = wind.ny > 1 ? wind.nx : 0;
+    g.step_z = wind.nz > 1 ? wind.nx * wind.ny : 0;
+    g.origin_m = wind.origin_m;
+    g.per_cell = {1 / wind.cell_m.x, 1 / wind.cell_m.y, 1 / wind.cell_m.z};
+    return g;
+}
+
+template <class R>
+SPINDRIFT_HD R lerp(const R& a, const R& b, const R& t)
+{
+    return fma(t, b - a, a);
+}
+
+namespace detail
+{
+
+/// Trilinear mean of one number of the eight cells around a point, x first, then y, then z: the order
+/// that the packs keep too (cpu/pack_grid.h).
+template <class R>
+SPINDRIFT_HD R trilinear(const GridWind& grid, const float* lower, const GridPoint<R>& p)
+{
+    const auto at = [&](int offset) { return static_cast<R>(lower[std::ptrdiff_t{offset} * 16]); };
+    const int sx = grid.step_x;
+    const int sy = grid.step_y;
+    const int sz = grid.step_z;
+    const R y0z0 = lerp(at(0), at(sx), p.fx);
+    const R y1z0 = lerp(at(sy), at(sy + sx), p.fx);
+    const R y0z1 = lerp(at(sz), at(sz + sx), p.fx);
+    const R y1z1 = lerp(at(sz + sy), at(sz + sy + sx), p.fx);
+    return lerp(lerp(y0z0, y1z0, p.fy), lerp(y0z1, y1z1, p.fy), p.fz);
+}
+
+}  // namespace detail
+
+// float and double; packs bring their own overloads, which read a record per load and transpose.
+
+template <class R>
+    requires(NumberTraits<R>::width == 1)
+SPINDRIFT_HD Vec3<R> interpolate_mean(const GridWind& grid, const GridPoint<R>& p)
+{
+    const float* lower = &grid.cells[p.index].u;
+    return {detail::trilinear(grid, lower, p), detail::trilinear(grid, lower + 1, p),
+            detail::trilinear(grid, lower + 2, p)};
+}
+
+template <class R>
+    requires(NumberTraits<R>::width == 1)
+SPINDRIFT_HD Air<R> interpolate_air(const GridWind& grid, const GridPoint<R>& p)
+{
+    const float* lower = &grid.cells[p.index].u;
+    R v[16];
+    for (int i = 0; i < 16; ++i) v[i] = detail::trilinear(grid, lower + i, p);
+    return air_of_record(v);
+}
+
+/// The sixteen numbers of a WindCell, by name.
+template <class R>
+SPINDRIFT_HD Air<R> air_of_record(const R (&v)[16])
+{
+    Air<R> a;
+    a.mean = {v[0], v[1], v[2]};
+    a.gradient = v[3];
+    a.s11 = v[4], a.s21 = v[5], a.s22 = v[6], a.s31 = v[7], a.s32 = v[8], a.s33 = v[9];
+    a.div_s = {v[10], v[11], v[12]};
+    a.rate = {v[13], v[14], v[15]};
+    return a;
+}
+
+}  // namespace spindrift
