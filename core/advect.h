@@ -19,6 +19,13 @@ inline constexpr double kGravity = 9.80665;  ///< m/s^2
 /// Slip below this speed (m/s) is none: it would fade through the denormal numbers for a second without moving anything.
 inline constexpr double kLeastSlip = 1e-6;
 
+/// Lane by lane.
+template <class Mask, class R>
+SPINDRIFT_HD Vec3<R> select(const Mask& mask, const Vec3<R>& yes, const Vec3<R>& no)
+{
+    return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
+}
+
 /// The step that a kernel makes.
 struct StepParams
 {
@@ -63,13 +70,13 @@ struct FlakeAdvector
                 if (none(moving)) break;
                 if (k > 0) air = wind.air(p.x);
                 const Move move = turbulent_move(p, air, h, static_cast<std::uint32_t>(k));
-                alive = arrive(first, p, move, moving, alive, static_cast<std::uint32_t>(k), tally);
+                alive = arrive(p, move, moving, alive, static_cast<std::uint32_t>(k), tally);
             }
         }
         else
         {
             const Move move = smooth_move(p, R(step.dt_s));
-            arrive(first, p, move, alive, alive, 0, tally);
+            arrive(p, move, alive, alive, 0, tally);
         }
         store_pack(first, p);
     }
@@ -101,7 +108,7 @@ struct FlakeAdvector
         p.slip = {load<R>(flakes.slip_x + i), load<R>(flakes.slip_y + i), load<R>(flakes.slip_z + i)};
         p.id = load<UInt>(flakes.id + i);
         p.state = state;
-        p.fall = fall_speed(p.id);
+        p.fall = fall_speed.template at<R>(p.id);
         return p;
     }
 
@@ -171,26 +178,56 @@ struct FlakeAdvector
     }
 
     /// Puts the moving lanes at the end of their path, or where what they met leaves them. Returns who is still alive.
-    SPINDRIFT_HD Mask arrive(std::size_t first, Pack& p, const Move& m, const Mask& moving, const Mask& alive,
-                             std::uint32_t k, EncounterTally& tally) const
+    SPINDRIFT_HD Mask arrive(Pack& p, const Move& m, const Mask& moving, const Mask& alive, std::uint32_t substep,
+                             EncounterTally& tally) const
     {
-        const Vec3<R> end = p.x + m.path;
-        const Mask meets = moving && around.may_meet(p.x, end, p.state);
-        const Pack before = p;
-        p.x = select(moving, end, p.x);
+        const Vec3<R> from = p.x;
+        p.x = select(moving, from + m.path, from);
         p.q = select(moving, m.q, p.q);
         p.slip = select(moving, m.slip, p.slip);
+        const Mask meets = moving && around.may_meet(from, m.path, p.state);
         if (none(meets)) return alive;
-        meet_lanes(mask_bits(meets), before, m, k, p, tally);
-        (void)first;
+        meet(mask_bits(meets), from, p, m, substep, tally);
         return alive && (p.state & UInt(0xFFU)) == UInt(0U);
     }
 
-    SPINDRIFT_HD static Vec3<R> select(const Mask& mask, const Vec3<R>& yes, const Vec3<R>& no)
+    /// The lanes of `lanes` one by one.
+    SPINDRIFT_HD void meet(std::uint32_t lanes, const Vec3<R>& from, Pack& p, const Move& m, std::uint32_t substep,
+                           EncounterTally& tally) const
     {
-        return {spindrift_select(mask, yes.x, no.x), spindrift_select(mask, yes.y, no.y),
-                spindrift_select(mask, yes.z, no.z)};
+        Lanes x(from), path(m.path), q(p.q), slip(p.slip), mean(m.air.mean), end(p.x);
+        Lanes s1({m.air.s11, m.air.s21, m.air.s22}), s2({m.air.s31, m.air.s32, m.air.s33});
+        float fall[width];
+        std::uint32_t id[width], state[width];
+        store(fall, p.fall), store(id, p.id), store(state, p.state);
+        const EncounterResolver resolve{around, step.seed, step.number, substep, Turbulent};
+        for (; lanes != 0; lanes &= lanes - 1)
+        {
+            const int l = __builtin_ctz(lanes);
+            Encounter f;
+            f.x = x[l], f.path = path[l], f.q = q[l], f.slip = slip[l];
+            f.air.mean = mean[l];
+            f.air.s11 = s1.x[l], f.air.s21 = s1.y[l], f.air.s22 = s1.z[l];
+            f.air.s31 = s2.x[l], f.air.s32 = s2.y[l], f.air.s33 = s2.z[l];
+            f.fall = fall[l], f.id = id[l], f.state = state[l];
+            resolve(f, tally);
+            end.put(l, f.x), q.put(l, f.q), slip.put(l, f.slip);
+            state[l] = f.state;
+        }
+        p.x = end.pack(), p.q = q.pack(), p.slip = slip.pack();
+        p.state = load<UInt>(state);
     }
+
+    /// A vector pack in memory, where its lanes can be had one by one.
+    struct Lanes
+    {
+        float x[width], y[width], z[width];
+
+        SPINDRIFT_HD explicit Lanes(const Vec3<R>& v) { store(x, v.x), store(y, v.y), store(z, v.z); }
+        SPINDRIFT_HD Vec3f operator[](int l) const { return {x[l], y[l], z[l]}; }
+        SPINDRIFT_HD void put(int l, const Vec3f& v) { x[l] = v.x, y[l] = v.y, z[l] = v.z; }
+        SPINDRIFT_HD Vec3<R> pack() const { return {load<R>(x), load<R>(y), load<R>(z)}; }
+    };
 };
 
 }  // namespace spindrift

@@ -238,6 +238,19 @@ inline GridWind grid_wind(const Wind& wind, const WindCell* cells)
     return g;
 }
 
+/// The sixteen numbers of a WindCell, by name.
+template <class R>
+SPINDRIFT_HD Air<R> air_of_record(const R (&v)[16])
+{
+    Air<R> a;
+    a.mean = {v[0], v[1], v[2]};
+    a.gradient = v[3];
+    a.s11 = v[4], a.s21 = v[5], a.s22 = v[6], a.s31 = v[7], a.s32 = v[8], a.s33 = v[9];
+    a.div_s = {v[10], v[11], v[12]};
+    a.rate = {v[13], v[14], v[15]};
+    return a;
+}
+
 template <class R>
 SPINDRIFT_HD R lerp(const R& a, const R& b, const R& t)
 {
@@ -284,19 +297,6 @@ SPINDRIFT_HD Air<R> interpolate_air(const GridWind& grid, const GridPoint<R>& p)
     R v[16];
     for (int i = 0; i < 16; ++i) v[i] = detail::trilinear(grid, lower + i, p);
     return air_of_record(v);
-}
-
-/// The sixteen numbers of a WindCell, by name.
-template <class R>
-SPINDRIFT_HD Air<R> air_of_record(const R (&v)[16])
-{
-    Air<R> a;
-    a.mean = {v[0], v[1], v[2]};
-    a.gradient = v[3];
-    a.s11 = v[4], a.s21 = v[5], a.s22 = v[6], a.s31 = v[7], a.s32 = v[8], a.s33 = v[9];
-    a.div_s = {v[10], v[11], v[12]};
-    a.rate = {v[13], v[14], v[15]};
-    return a;
 }
 
 }  // namespace spindrift

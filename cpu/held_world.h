@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/world.h"
+#include "cpu/kernels.h"
+
+namespace spindrift::cpu
+{
+
+/// Throws Error for a World whose parts contradict each other, so that no kernel reads outside an array.
+void check_world(const World& world);
+
+/// A World as the kernels read it: its wind cells in large pages (a flake reads eight cache lines of them at random
+/// places, most of the cost of which would else be address translation), its clearances with room to read beyond.
+class HeldWorld
+{
+  public:
+    explicit HeldWorld(const World& world);
+
+    /// All but the wind cells, which are empty here.
+    const World& data() const { return data_; }
+
+    /// The job of any step, but for its number, flakes and regions.
+    AdvectJob job() const;
+
+  private:
+    struct Unmap
+    {
+        std::size_t bytes = 0;
+        void operator()(void* p) const;
+    };
+
+    World data_;
+    std::unique_ptr<void, Unmap> cells_{nullptr, Unmap{}};
+};
+
+}  // namespace spindrift::cpu
