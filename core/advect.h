@@ -16,7 +16,8 @@ namespace spindrift
 
 inline constexpr double kGravity = 9.80665;  ///< m/s^2
 
-/// Slip below this speed (m/s) is none: it would fade through the denormal numbers for a second without moving anything.
+/// Slip below this speed (m/s) is none: it would fade through the denormal numbers for a second without
+/// moving anything.
 inline constexpr double kLeastSlip = 1e-6;
 
 /// Lane by lane.
@@ -124,8 +125,8 @@ struct FlakeAdvector
         store(flakes.state + i, p.state);
     }
 
-    /// Relaxation of q over the whole sub-step, then the deterministic flow dx = (U + S q) dt, dq = div S dt by the
-    /// midpoint rule.
+    /// Relaxation of q over the whole sub-step, then the deterministic flow dx = (U + S q) dt, dq = div S dt
+    /// by the midpoint rule.
     SPINDRIFT_HD Move turbulent_move(const Pack& p, const Air<R>& air, const R& h, std::uint32_t k) const
     {
         const Gaussians<R> noise = gaussians<R>(step.seed, p.id, step.number, RandomStream::turbulence, k);
@@ -177,9 +178,10 @@ struct FlakeAdvector
         fade(p.slip.z, m.path.z, m.slip.z);
     }
 
-    /// Puts the moving lanes at the end of their path, or where what they met leaves them. Returns who is still alive.
-    SPINDRIFT_HD Mask arrive(Pack& p, const Move& m, const Mask& moving, const Mask& alive, std::uint32_t substep,
-                             EncounterTally& tally) const
+    /// Puts the moving lanes at the end of their path, or where what they met leaves them. Returns who is
+    /// still alive.
+    SPINDRIFT_HD Mask arrive(Pack& p, const Move& m, const Mask& moving, const Mask& alive,
+                             std::uint32_t substep, EncounterTally& tally) const
     {
         const Vec3<R> from = p.x;
         p.x = select(moving, from + m.path, from);
@@ -192,8 +194,8 @@ struct FlakeAdvector
     }
 
     /// The lanes of `lanes` one by one.
-    SPINDRIFT_HD void meet(std::uint32_t lanes, const Vec3<R>& from, Pack& p, const Move& m, std::uint32_t substep,
-                           EncounterTally& tally) const
+    SPINDRIFT_HD void meet(std::uint32_t lanes, const Vec3<R>& from, Pack& p, const Move& m,
+                           std::uint32_t substep, EncounterTally& tally) const
     {
         Lanes x(from), path(m.path), q(p.q), slip(p.slip), mean(m.air.mean), end(p.x);
         Lanes s1({m.air.s11, m.air.s21, m.air.s22}), s2({m.air.s31, m.air.s32, m.air.s33});

@@ -21,7 +21,8 @@ struct Frustum
     int key_bits = 32;
 };
 
-/// `key_bits`: 32 (exact order) or fewer (linear buckets of distance between 0 and the far plane), at least 1.
+/// `key_bits`: 32 (exact order) or fewer (linear buckets of distance between 0 and the far plane), at
+/// least 1.
 inline Frustum frustum(const View& view, int key_bits)
 {
     Frustum f;
@@ -60,8 +61,8 @@ SPINDRIFT_HD MaskOf<R> in_view(const Frustum& f, const Vec3<R>& d)
            abs(height) <= depth * R(f.slope_y);
 }
 
-/// Key whose ascending order is far to near by distance to the eye. 32 bits: the complement of the bits of the squared
-/// distance, which order as the distances do; fewer: linear buckets.
+/// Key whose ascending order is far to near by distance to the eye. 32 bits: the complement of the bits of
+/// the squared distance, which order as the distances do; fewer: linear buckets.
 template <class R>
 SPINDRIFT_HD UIntOf<R> depth_key(const Frustum& f, const Vec3<R>& d)
 {

@@ -83,16 +83,14 @@ struct EncounterTally
 /// One flake with the path that it would go if nothing were in the way.
 struct Encounter
 {
-    Vec3f x, path;    ///< m
+    Vec3f x, path;  ///< m
     Vec3f q, slip;
-    Air<float> air;   ///< on the way; mean and S
-    float fall = 0;   ///< terminal speed, m/s
+    Air<float> air;  ///< on the way; mean and S
+    float fall = 0;  ///< terminal speed, m/s
     std::uint32_t id = 0, state = 0;
 
     SPINDRIFT_HD std::uint32_t emitter() const { return state >> 8 & 0xFFU; }
-    SPINDRIFT_HD void end(Fate fate)
-    { state = (state & ~0xFFU) | static_cast<std::uint32_t>(fate);
-    }
+    SPINDRIFT_HD void end(Fate fate) { state = (state & ~0xFFU) | static_cast<std::uint32_t>(fate); }
 };
 
 namespace detail
@@ -110,8 +108,8 @@ SPINDRIFT_HD float component(const Vec3f& v, int axis)
 
 }  // namespace detail
 
-/// Takes flakes along their paths through walls, ground and borders: bounces, lands, leaves, wraps. One lane at a time.
-/// Source: docs/physics.md "Contact".
+/// Takes flakes along their paths through walls, ground and borders: bounces, lands, leaves, wraps. One lane
+/// at a time. Source: docs/physics.md "Contact".
 struct EncounterResolver
 {
     const Surroundings& around;
@@ -120,7 +118,8 @@ struct EncounterResolver
     std::uint32_t substep;
     bool turbulent;
 
-    /// A flake that is still under way after so many borders in one sub-step stays where the last one left it.
+    /// A flake that is still under way after so many borders in one sub-step stays where the last one left
+    /// it.
     static constexpr int kMostBorders = 64;
     /// Places that are tried for a flake that wrapped into a solid.
     static constexpr std::uint32_t kPlaces = 8;
@@ -187,8 +186,8 @@ struct EncounterResolver
     }
 
     /// Where a flake stands that bounced on its way to `planned`, which may now lie behind it.
-    SPINDRIFT_HD static Border border_after_bounce(const Encounter& f, const Region& region, const Border& planned,
-                                                   const WalkResult<float>& walked)
+    SPINDRIFT_HD static Border border_after_bounce(const Encounter& f, const Region& region,
+                                                   const Border& planned, const WalkResult<float>& walked)
     {
         if (planned.axis >= 0 && (walked.mirrored >> planned.axis & 1U) == 0) return planned;
         Border border;
@@ -201,8 +200,8 @@ struct EncounterResolver
         return border;
     }
 
-    /// Mirrors path and velocity with restitution, and the turbulence so that it stays well mixed (Wilson and Flesch 1993):
-    /// only its normal part where no shear stress acts on the wall, else all of it.
+    /// Mirrors path and velocity with restitution, and the turbulence so that it stays well mixed (Wilson and
+    /// Flesch 1993): only its normal part where no shear stress acts on the wall, else all of it.
     SPINDRIFT_HD static void reflect(Encounter& f, Vec3f& velocity, const WalkResult<float>& walked)
     {
         velocity = {velocity.x * walked.kept.x, velocity.y * walked.kept.y, velocity.z * walked.kept.z};
@@ -229,7 +228,8 @@ struct EncounterResolver
     }
 
     /// At the border of the domain. False if the flake is gone.
-    SPINDRIFT_HD bool cross(Encounter& f, const Region& region, const Border& border, EncounterTally& tally) const
+    SPINDRIFT_HD bool cross(Encounter& f, const Region& region, const Border& border,
+                            EncounterTally& tally) const
     {
         if (around.on_leave != OnLeave::wrap || border.axis == 2)
         {
@@ -262,18 +262,22 @@ struct EncounterResolver
         if (folded[0] || folded[1] || folded[2]) settle_in(f, region, folded[0], folded[1], tally);
     }
 
-    /// A flake that wrapped into a solid is tried at other places of the side where it came in, at the same height; it vanishes
-    /// if none of them is free. False if it is gone.
-    SPINDRIFT_HD bool settle_in(Encounter& f, const Region& region, bool keep_x, bool keep_y, EncounterTally& tally) const
+    /// A flake that wrapped into a solid is tried at other places of the side where it came in, at the same
+    /// height; it vanishes if none of them is free. False if it is gone.
+    SPINDRIFT_HD bool settle_in(Encounter& f, const Region& region, bool keep_x, bool keep_y,
+                                EncounterTally& tally) const
     {
         if (!around.is_blocked(f.x)) return true;
         f.path = {0, 0, 0};
         const bool keep_none = keep_x && keep_y;
         for (std::uint32_t place = 0; place < kPlaces; ++place)
         {
-            const auto words = random_words<std::uint32_t>(seed, f.id, step, RandomStream::respawn, substep * kPlaces + place);
-            if (!keep_x || keep_none) f.x.x = between(region.lower.x, region.upper.x, uniform<float>(words.x0));
-            if (!keep_y || keep_none) f.x.y = between(region.lower.y, region.upper.y, uniform<float>(words.x1));
+            const auto words = random_words<std::uint32_t>(seed, f.id, step, RandomStream::respawn,
+                                                           substep * kPlaces + place);
+            if (!keep_x || keep_none)
+                f.x.x = between(region.lower.x, region.upper.x, uniform<float>(words.x0));
+            if (!keep_y || keep_none)
+                f.x.y = between(region.lower.y, region.upper.y, uniform<float>(words.x1));
             if (!around.is_blocked(f.x)) return true;
         }
         stop(f, Fate::vanished, region, tally);

@@ -8,13 +8,14 @@
 namespace spindrift
 {
 
-/// Sub-steps are made so short that h |dS/dx| stays below this (docs/physics.md "Turbulence", table): there the well-mixed
-/// sinusoid is at statistical noise.
+/// Sub-steps are made so short that h |dS/dx| stays below this (docs/physics.md "Turbulence", table): there
+/// the well-mixed sinusoid is at statistical noise.
 inline constexpr double kGradientLimit = 0.25;
 /// Most sub-steps that one step is cut into.
 inline constexpr int kMostSubsteps = 64;
 
-/// Into how many sub-steps a step of h seconds is cut where the largest |dS/dx| is `gradient`: 1 … kMostSubsteps.
+/// Into how many sub-steps a step of h seconds is cut where the largest |dS/dx| is `gradient`: 1 …
+/// kMostSubsteps.
 template <class R>
 SPINDRIFT_HD IntOf<R> substeps(const R& gradient, const R& h)
 {
@@ -23,9 +24,9 @@ SPINDRIFT_HD IntOf<R> substeps(const R& gradient, const R& h)
     return truncate_to_int(max(min(wanted, most), number<R>(1.0)));
 }
 
-/// One Ornstein-Uhlenbeck step of a component of unit variance by Cayley's r = (1 - a/2) / (1 + a/2), a = rate h:
-/// stationary variance and diffusivity are exact for every a. `noise` is a standard Gaussian.
-/// Source: docs/physics.md "Turbulence"; sqrt(1 - r^2) = sqrt(2a) / (1 + a/2) without cancellation.
+/// One Ornstein-Uhlenbeck step of a component of unit variance by Cayley's r = (1 - a/2) / (1 + a/2), a =
+/// rate h: stationary variance and diffusivity are exact for every a. `noise` is a standard Gaussian. Source:
+/// docs/physics.md "Turbulence"; sqrt(1 - r^2) = sqrt(2a) / (1 + a/2) without cancellation.
 template <class R>
 SPINDRIFT_HD R relax(const R& q, const R& rate, const R& h, const R& noise)
 {

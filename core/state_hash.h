@@ -10,8 +10,8 @@
 namespace spindrift
 {
 
-/// All bits of one flake, mixed. The hash of a run is the sum of these modulo 2^64, so that it depends neither on the
-/// order nor on the slots of the flakes.
+/// All bits of one flake, mixed. The hash of a run is the sum of these modulo 2^64, so that it depends
+/// neither on the order nor on the slots of the flakes.
 SPINDRIFT_HD std::uint64_t flake_hash(const std::uint32_t (&bits)[11])
 {
     std::uint64_t h = 0x9E3779B97F4A7C15U;  // mix64 keeps 0

@@ -16,11 +16,11 @@ namespace spindrift
 template <class R>
 struct Air
 {
-    Vec3<R> mean;                      ///< m/s
-    R s11, s21, s22, s31, s32, s33;    ///< lower-triangular root of the stress tensor, m/s
-    Vec3<R> div_s;                     ///< d_i S_ij for j = 1, 2, 3, in 1/s
-    Vec3<R> rate;                      ///< relaxation rate of q_j, 1/s
-    R gradient;                        ///< largest |dS/dx|, 1/s
+    Vec3<R> mean;                    ///< m/s
+    R s11, s21, s22, s31, s32, s33;  ///< lower-triangular root of the stress tensor, m/s
+    Vec3<R> div_s;                   ///< d_i S_ij for j = 1, 2, 3, in 1/s
+    Vec3<R> rate;                    ///< relaxation rate of q_j, 1/s
+    R gradient;                      ///< largest |dS/dx|, 1/s
 };
 
 /// S q: the turbulent velocity of a flake, m/s.
@@ -33,8 +33,9 @@ SPINDRIFT_HD Vec3<R> turbulent_velocity(const Air<R>& air, const Vec3<R>& q)
 
 inline constexpr double kVonKarman = 0.4;
 
-/// The neutral surface layer over a plane (docs/physics.md "Wind"): one matrix scaled by f(z) = u* (1 - d/zi)^(3/4), d the
-/// height above the ground. Made by surface_layer(); plain numbers, so that any thread may have a copy.
+/// The neutral surface layer over a plane (docs/physics.md "Wind"): one matrix scaled by f(z) = u* (1 -
+/// d/zi)^(3/4), d the height above the ground. Made by surface_layer(); plain numbers, so that any thread may
+/// have a copy.
 struct SurfaceLayer
 {
     float friction_velocity_m_s = 0;
@@ -109,10 +110,10 @@ SPINDRIFT_HD void sample_surface_layer(const SurfaceLayer& layer, const R& z, Ai
     const R quarter = sqrt(root);
     const R f = R(layer.friction_velocity_m_s) * (root * quarter);
     // f' = -3/4 u* / zi share^(-1/4); nothing changes any more where the share stands at its floor
-    const R slope = select(share > floor_share,
-                           number<R>(-0.75) * R(layer.friction_velocity_m_s) *
-                               R(layer.inverse_boundary_layer_per_m) / quarter,
-                           number<R>(0.0));
+    const R slope = select(
+        share > floor_share,
+        number<R>(-0.75) * R(layer.friction_velocity_m_s) * R(layer.inverse_boundary_layer_per_m) / quarter,
+        number<R>(0.0));
     air.s11 = f * R(layer.s11);
     air.s21 = f * R(layer.s21);
     air.s22 = f * R(layer.s22);
@@ -181,7 +182,8 @@ struct GridPoint
     R fx, fy, fz;  ///< in [0, 1]
 };
 
-/// The grid of World::wind; does not own its cells. Outside the centres of the outermost cells their values hold.
+/// The grid of World::wind; does not own its cells. Outside the centres of the outermost cells their values
+/// hold.
 struct GridWind
 {
     const WindCell* cells = nullptr;
@@ -281,8 +283,8 @@ SPINDRIFT_HD R trilinear(const GridWind& grid, const float* lower, const GridPoi
 // float and double; packs bring their own overloads, which read a record per load and transpose.
 
 template <class R>
-    requires(NumberTraits<R>::width == 1)
-SPINDRIFT_HD Vec3<R> interpolate_mean(const GridWind& grid, const GridPoint<R>& p)
+requires(NumberTraits<R>::width == 1) SPINDRIFT_HD Vec3<R> interpolate_mean(const GridWind& grid,
+                                                                            const GridPoint<R>& p)
 {
     const float* lower = &grid.cells[p.index].u;
     return {detail::trilinear(grid, lower, p), detail::trilinear(grid, lower + 1, p),
@@ -290,8 +292,8 @@ SPINDRIFT_HD Vec3<R> interpolate_mean(const GridWind& grid, const GridPoint<R>& 
 }
 
 template <class R>
-    requires(NumberTraits<R>::width == 1)
-SPINDRIFT_HD Air<R> interpolate_air(const GridWind& grid, const GridPoint<R>& p)
+requires(NumberTraits<R>::width == 1) SPINDRIFT_HD Air<R> interpolate_air(const GridWind& grid,
+                                                                          const GridPoint<R>& p)
 {
     const float* lower = &grid.cells[p.index].u;
     R v[16];

@@ -57,7 +57,8 @@ std::vector<std::uint64_t> Anchors::save() const
     {
         const Vec3f v = p.value_or(Vec3f{0, 0, 0});
         words.push_back(p ? 1U : 0U);
-        words.push_back(std::uint64_t{std::bit_cast<std::uint32_t>(v.x)} << 32 | std::bit_cast<std::uint32_t>(v.y));
+        words.push_back(std::uint64_t{std::bit_cast<std::uint32_t>(v.x)} << 32 |
+                        std::bit_cast<std::uint32_t>(v.y));
         words.push_back(std::bit_cast<std::uint32_t>(v.z));
     }
     return words;
@@ -65,7 +66,8 @@ std::vector<std::uint64_t> Anchors::save() const
 
 void Anchors::restore(const std::uint64_t* state)
 {
-    const auto number = [](std::uint64_t bits) { return std::bit_cast<float>(static_cast<std::uint32_t>(bits)); };
+    const auto number = [](std::uint64_t bits)
+    { return std::bit_cast<float>(static_cast<std::uint32_t>(bits)); };
     for (std::optional<Vec3f>& p : placed_)
     {
         p.reset();

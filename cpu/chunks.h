@@ -7,8 +7,8 @@
 namespace spindrift::cpu
 {
 
-/// Flakes that one task works on: a multiple of every pack width and of the 64 flakes of a mask word. Small enough to
-/// share out 100 000 flakes, large enough that a task costs more than its start.
+/// Flakes that one task works on: a multiple of every pack width and of the 64 flakes of a mask word. Small
+/// enough to share out 100 000 flakes, large enough that a task costs more than its start.
 inline constexpr std::size_t kChunkFlakes = 4096;
 
 inline constexpr std::size_t chunk_count(std::size_t flakes)

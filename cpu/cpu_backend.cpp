@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/cpu_backend.h"
 
+#include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <cstring>
-#include <thread>
+#include <optional>
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/task_arena.h>
 
@@ -52,14 +52,24 @@ int thread_count(int asked)
     return asked == 0 ? tbb::info::default_concurrency() : asked;
 }
 
+/// TBB starts no more threads than there are cores unless told so.
+std::optional<tbb::global_control> more_threads(int threads)
+{
+    if (threads <= tbb::info::default_concurrency()) return std::nullopt;
+    return std::make_optional<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                   static_cast<std::size_t>(threads));
+}
+
 class CpuBackend final : public Backend
 {
   public:
-    CpuBackend(const World& world, const FlakeView& flakes, const DrawListView& draw_list, const CpuOptions& options)
+    CpuBackend(const World& world, const FlakeView& flakes, const DrawListView& draw_list,
+               const CpuOptions& options)
         : world_(world),
           simd_(choose_simd(options.simd)),
           kernels_(kernels(simd_)),
           threads_(thread_count(options.threads)),
+          more_threads_(more_threads(threads_)),
           arena_(threads_),
           flakes_(flakes),
           anchors_(world.anchors),
@@ -117,6 +127,7 @@ class CpuBackend final : public Backend
     Simd simd_;
     const KernelTable& kernels_;
     int threads_;
+    std::optional<tbb::global_control> more_threads_;
     mutable tbb::task_arena arena_;
     FlakeView flakes_;
     Anchors anchors_;
@@ -259,7 +270,9 @@ Snapshot CpuBackend::save() const
 void CpuBackend::restore(const Snapshot& s)
 {
     if (s.world_hash != hash_)
-        throw Error("snapshot belongs to another scene (its world differs); restore it with the scene that it was saved from");
+        throw Error(
+            "snapshot belongs to another scene (its world differs); restore it with the scene that it was "
+            "saved from");
     const std::size_t emitters = world_.data().emitters.size();
     if (s.emitter_state.size() != 2 * emitters + 3 * anchors_.count())
         throw Error("snapshot has not the state of this scene's emitters (damaged); write it again");
@@ -275,8 +288,8 @@ void CpuBackend::restore(const Snapshot& s)
 
 }  // namespace
 
-std::unique_ptr<Backend> make_cpu_backend(const World& world, const FlakeView& flakes, const DrawListView& draw_list,
-                                          const CpuOptions& options)
+std::unique_ptr<Backend> make_cpu_backend(const World& world, const FlakeView& flakes,
+                                          const DrawListView& draw_list, const CpuOptions& options)
 {
     check_world(world);
     return std::make_unique<CpuBackend>(world, flakes, draw_list, options);

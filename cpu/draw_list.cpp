@@ -35,12 +35,13 @@ const SortStrategy& DrawListMaker::strategy(const SortSettings& settings)
 {
     if (const SortStrategy* found = find_sort_strategy(settings.strategy)) return *found;
     std::string names;
-    for (const SortStrategy& s : sort_strategies()) names += (names.empty() ? "" : ", ") + std::string(s.name);
+    for (const SortStrategy& s : sort_strategies())
+        names += (names.empty() ? "" : ", ") + std::string(s.name);
     throw Error(fmt::format("sort = \"{}\" is not known; use one of {}", settings.strategy, names));
 }
 
-DrawList DrawListMaker::fill(const KernelTable& kernels, const FlakeView& flakes, std::size_t used, const View& view,
-                             const SortSettings& settings, const SortStrategy& strategy)
+DrawList DrawListMaker::fill(const KernelTable& kernels, const FlakeView& flakes, std::size_t used,
+                             const View& view, const SortSettings& settings, const SortStrategy& strategy)
 {
     const Frustum f = frustum(view, key_bits(settings, strategy));
     const std::size_t chunks = chunk_count(used);
@@ -56,8 +57,7 @@ DrawList DrawListMaker::fill(const KernelTable& kernels, const FlakeView& flakes
     starts[0] = 0;
     for (std::size_t c = 0; c < chunks; ++c) starts[c + 1] += starts[c];
     parallel_for_each_index(chunks,
-                            [&](std::size_t c)
-                            {
+                            [&](std::size_t c) {
                                 std::copy_n(view_.scratch + Chunk(c, used).first, starts[c + 1] - starts[c],
                                             view_.pairs + starts[c]);
                             });

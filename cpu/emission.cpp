@@ -28,9 +28,12 @@ Vec3f air_velocity(const AdvectJob& job, const Vec3f& x, const Vec3f& q)
     };
     switch (job.wind_kind)
     {
-        case WindKind::uniform: return velocity(job.uniform);
-        case WindKind::logarithmic: return velocity(job.logarithmic);
-        case WindKind::grid: break;
+        case WindKind::uniform:
+            return velocity(job.uniform);
+        case WindKind::logarithmic:
+            return velocity(job.logarithmic);
+        case WindKind::grid:
+            break;
     }
     return velocity(job.grid);
 }
@@ -100,7 +103,8 @@ void Emission::share_out(std::uint64_t step, std::uint64_t room, Made& made)
     }
 }
 
-bool Emission::make_one(const AdvectJob& job, std::uint32_t id, std::size_t e, StartPlace place, std::size_t slot) const
+bool Emission::make_one(const AdvectJob& job, std::uint32_t id, std::size_t e, StartPlace place,
+                        std::size_t slot) const
 {
     const Emitter& emitter = emitters_[e];
     const FlakeView& f = job.flakes;
@@ -122,12 +126,13 @@ bool Emission::make_one(const AdvectJob& job, std::uint32_t id, std::size_t e, S
     f.q1[slot] = q.x, f.q2[slot] = q.y, f.q3[slot] = q.z;
     f.slip_x[slot] = slip.x, f.slip_y[slot] = slip.y, f.slip_z[slot] = slip.z;
     f.id[slot] = id;
-    f.state[slot] = static_cast<std::uint32_t>(e) << 8 | static_cast<std::uint32_t>(blocked ? Fate::vanished : Fate::alive);
+    f.state[slot] = static_cast<std::uint32_t>(e) << 8 |
+                    static_cast<std::uint32_t>(blocked ? Fate::vanished : Fate::alive);
     return !blocked;
 }
 
-Emission::Made Emission::make(const AdvectJob& job, std::uint64_t step, std::uint64_t next_id, std::size_t used,
-                              std::uint64_t room)
+Emission::Made Emission::make(const AdvectJob& job, std::uint64_t step, std::uint64_t next_id,
+                              std::size_t used, std::uint64_t room)
 {
     Made made;
     share_out(step, room, made);

@@ -12,8 +12,8 @@
 namespace spindrift::cpu
 {
 
-/// Which flakes come into being in a step, and where. What is due depends only on counts, so that it is the same for
-/// any number of threads.
+/// Which flakes come into being in a step, and where. What is due depends only on counts, so that it is the
+/// same for any number of threads.
 class Emission
 {
   public:
@@ -29,8 +29,10 @@ class Emission
         std::uint64_t withheld = 0;  ///< newly due, but the slots did not suffice
     };
 
-    /// Writes the flakes of the step to the slots from job.flakes[used] on, at most `room`, with serial numbers from `next_id` on.
-    Made make(const AdvectJob& job, std::uint64_t step, std::uint64_t next_id, std::size_t used, std::uint64_t room);
+    /// Writes the flakes of the step to the slots from job.flakes[used] on, at most `room`, with serial
+    /// numbers from `next_id` on.
+    Made make(const AdvectJob& job, std::uint64_t step, std::uint64_t next_id, std::size_t used,
+              std::uint64_t room);
 
     /// `lost[e]` flakes of emitter e are to be made up for in the next step.
     void owe(std::size_t emitter, std::uint64_t lost) { owed_[emitter] += lost; }
@@ -42,7 +44,8 @@ class Emission
   private:
     std::uint64_t fresh(std::size_t emitter, std::uint64_t step) const;
     void share_out(std::uint64_t step, std::uint64_t room, Made& made);
-    bool make_one(const AdvectJob& job, std::uint32_t id, std::size_t emitter, StartPlace place, std::size_t slot) const;
+    bool make_one(const AdvectJob& job, std::uint32_t id, std::size_t emitter, StartPlace place,
+                  std::size_t slot) const;
 
     std::vector<Emitter> emitters_;
     double step_s_;

@@ -15,7 +15,7 @@ constexpr std::size_t kAlignment = 64;
 
 struct AlignedDelete
 {
-    void operator()(void* p) const { ::operator delete(p, std::align_val_t{kAlignment}); }
+    void operator()(void* p) const { ::operator delete (p, std::align_val_t{kAlignment}); }
 };
 
 using AlignedBytes = std::unique_ptr<void, AlignedDelete>;
@@ -23,7 +23,7 @@ using AlignedBytes = std::unique_ptr<void, AlignedDelete>;
 AlignedBytes aligned_zeros(std::size_t bytes)
 {
     const std::size_t padded = (bytes + kAlignment - 1) / kAlignment * kAlignment;
-    void* p = ::operator new(std::max(padded, kAlignment), std::align_val_t{kAlignment});
+    void* p = ::operator new (std::max(padded, kAlignment), std::align_val_t{kAlignment});
     std::fill_n(static_cast<unsigned char*>(p), padded, static_cast<unsigned char>(0));
     return AlignedBytes(p);
 }

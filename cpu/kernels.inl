@@ -31,7 +31,8 @@ SPINDRIFT_HD void prefetch(const GridWind& grid, const FlakeView& flakes, std::s
     for (std::size_t l = 0; l < kWidth; ++l)
         for (int corner = 0; corner < 4; ++corner)
         {
-            const WindCell* row = grid.cells + index[l] + (corner & 1 ? grid.step_y : 0) + (corner & 2 ? grid.step_z : 0);
+            const WindCell* row =
+                grid.cells + index[l] + (corner & 1 ? grid.step_y : 0) + (corner & 2 ? grid.step_z : 0);
             __builtin_prefetch(row);
             __builtin_prefetch(row + grid.step_x);
         }
@@ -41,14 +42,16 @@ template <class WindField, bool Turbulent>
 SPINDRIFT_HD void advect_in(const WindField& wind, const AdvectJob& job, std::size_t first, std::size_t last,
                             EncounterTally& tally)
 {
-    const FlakeAdvector<Real, WindField, Turbulent> advector{job.step, wind, job.fall_speed, job.around, job.flakes};
+    const FlakeAdvector<Real, WindField, Turbulent> advector{job.step, wind, job.fall_speed, job.around,
+                                                             job.flakes};
     std::size_t i = first;
     for (; i + kWidth <= last; i += kWidth)
     {
         prefetch(wind, job.flakes, i + kPrefetchPacks * kWidth, last);
         advector(i, tally);
     }
-    const FlakeAdvector<float, WindField, Turbulent> rest{job.step, wind, job.fall_speed, job.around, job.flakes};
+    const FlakeAdvector<float, WindField, Turbulent> rest{job.step, wind, job.fall_speed, job.around,
+                                                          job.flakes};
     for (; i < last; ++i) rest(i, tally);
 }
 
@@ -66,15 +69,22 @@ void advect(const AdvectJob& job, std::size_t first, std::size_t last, Encounter
 {
     switch (job.wind_kind)
     {
-        case WindKind::uniform: advect_in(job.uniform, job, first, last, tally); break;
-        case WindKind::logarithmic: advect_in(job.logarithmic, job, first, last, tally); break;
-        case WindKind::grid: advect_in(job.grid, job, first, last, tally); break;
+        case WindKind::uniform:
+            advect_in(job.uniform, job, first, last, tally);
+            break;
+        case WindKind::logarithmic:
+            advect_in(job.logarithmic, job, first, last, tally);
+            break;
+        case WindKind::grid:
+            advect_in(job.grid, job, first, last, tally);
+            break;
     }
 }
 
 /// One pack of the draw list; returns how many pairs it wrote.
 template <class R>
-SPINDRIFT_HD std::size_t list_pack(const Frustum& frustum, const FlakeView& flakes, std::size_t i, std::uint64_t* out)
+SPINDRIFT_HD std::size_t list_pack(const Frustum& frustum, const FlakeView& flakes, std::size_t i,
+                                   std::uint64_t* out)
 {
     constexpr int width = NumberTraits<R>::width;
     using UInt = UIntOf<R>;

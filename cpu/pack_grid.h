@@ -4,10 +4,10 @@
 #include "core/wind.h"
 #include "cpu/pack.h"
 
-// Interpolation in a wind grid for SIMD packs. A wind cell is one cache line, so a lane loads its eight records whole and
-// interpolates across their components; only the result is transposed to one pack per component. The operations of each
-// number are those of detail::trilinear (core/wind.h) in the same order: the same bits. Gathers of single numbers took
-// four times as long.
+// Interpolation in a wind grid for SIMD packs. A wind cell is one cache line, so a lane loads its eight
+// records whole and interpolates across their components; only the result is transposed to one pack per
+// component. The operations of each number are those of detail::trilinear (core/wind.h) in the same order:
+// the same bits. Gathers of single numbers took four times as long.
 
 namespace spindrift::cpu
 {
@@ -107,8 +107,9 @@ SPINDRIFT_HD Air<Avx2Real> interpolate_air(const GridWind& grid, const GridPoint
         __m256 rows[8];
 #pragma GCC unroll 8
         for (int l = 0; l < 8; ++l)
-            rows[l] = interpolate_half(grid, grid.cells + lanes.index[l], part, _mm256_broadcast_ss(lanes.fx + l),
-                                       _mm256_broadcast_ss(lanes.fy + l), _mm256_broadcast_ss(lanes.fz + l));
+            rows[l] =
+                interpolate_half(grid, grid.cells + lanes.index[l], part, _mm256_broadcast_ss(lanes.fx + l),
+                                 _mm256_broadcast_ss(lanes.fy + l), _mm256_broadcast_ss(lanes.fz + l));
         transpose(rows);
         for (int i = 0; i < 8; ++i) numbers[part + i] = Avx2Real(rows[i]);
     }
@@ -172,9 +173,9 @@ SPINDRIFT_HD void transpose(__m512 (&r)[16])
     }
     for (int c = 0; c < 4; ++c)
     {
-        const __m512 low01 = _mm512_shuffle_f32x4(u[c], u[4 + c], 0x88);      // parts 0 and 2 of rows 0-7
+        const __m512 low01 = _mm512_shuffle_f32x4(u[c], u[4 + c], 0x88);       // parts 0 and 2 of rows 0-7
         const __m512 low23 = _mm512_shuffle_f32x4(u[8 + c], u[12 + c], 0x88);  // … of rows 8-15
-        const __m512 high01 = _mm512_shuffle_f32x4(u[c], u[4 + c], 0xDD);     // parts 1 and 3
+        const __m512 high01 = _mm512_shuffle_f32x4(u[c], u[4 + c], 0xDD);      // parts 1 and 3
         const __m512 high23 = _mm512_shuffle_f32x4(u[8 + c], u[12 + c], 0xDD);
         r[c] = _mm512_shuffle_f32x4(low01, low23, 0x88);
         r[c + 8] = _mm512_shuffle_f32x4(low01, low23, 0xDD);

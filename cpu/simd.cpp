@@ -28,10 +28,14 @@ std::string simd_name(Simd simd)
 {
     switch (simd)
     {
-        case Simd::automatic: return "automatic";
-        case Simd::scalar: return "scalar";
-        case Simd::avx2: return "avx2";
-        case Simd::avx512: return "avx512";
+        case Simd::automatic:
+            return "automatic";
+        case Simd::scalar:
+            return "scalar";
+        case Simd::avx2:
+            return "avx2";
+        case Simd::avx512:
+            return "avx512";
     }
     return "unknown";
 }
@@ -50,9 +54,12 @@ const KernelTable& kernels(Simd simd)
 {
     switch (simd)
     {
-        case Simd::avx512: return kAvx512Kernels;
-        case Simd::avx2: return kAvx2Kernels;
-        default: return kScalarKernels;
+        case Simd::avx512:
+            return kAvx512Kernels;
+        case Simd::avx2:
+            return kAvx2Kernels;
+        default:
+            return kScalarKernels;
     }
 }
 

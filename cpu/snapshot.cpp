@@ -54,13 +54,16 @@ void check_arrays(const Snapshot& s, std::uint64_t capacity, std::size_t emitter
 {
     const FlakeCounts& c = s.counts;
     if (c.alive > capacity)
-        throw Error(fmt::format("snapshot holds {} flakes, more than the capacity of {}; raise the capacity", c.alive, capacity));
+        throw Error(fmt::format("snapshot holds {} flakes, more than the capacity of {}; raise the capacity",
+                                c.alive, capacity));
     bool whole = s.arrays.size() == kArrays && c.emitted == c.alive + c.left + c.landed + c.vanished;
     for (const auto& array : s.arrays) whole = whole && array.size() == c.alive;
     for (std::size_t a = 0; whole && a < kFloats; ++a)
-        for (const std::uint32_t word : s.arrays[a]) whole = whole && std::isfinite(std::bit_cast<float>(word));
+        for (const std::uint32_t word : s.arrays[a])
+            whole = whole && std::isfinite(std::bit_cast<float>(word));
     if (whole)
-        for (const std::uint32_t state : s.arrays[kState]) whole = whole && is_alive(state) && state >> 8 < emitters;
+        for (const std::uint32_t state : s.arrays[kState])
+            whole = whole && is_alive(state) && state >> 8 < emitters;
     if (!whole) throw Error("snapshot contradicts itself (damaged); write it again");
 }
 

@@ -13,7 +13,8 @@ namespace spindrift::cpu
 /// The eleven arrays as bits, without holes.
 std::vector<std::vector<std::uint32_t>> alive_arrays(const FlakeView& flakes, std::size_t used);
 
-/// Throws Error unless the arrays of a snapshot are whole, fit the capacity, and hold finite, living flakes of emitters that exist.
+/// Throws Error unless the arrays of a snapshot are whole, fit the capacity, and hold finite, living flakes
+/// of emitters that exist.
 void check_arrays(const Snapshot& snapshot, std::uint64_t capacity, std::size_t emitters);
 
 /// Writes the arrays of a checked snapshot to the slots from 0 on.

@@ -55,9 +55,12 @@ class Checksum
 class Writer
 {
   public:
-    explicit Writer(const std::filesystem::path& file) : file_(file), out_(file, std::ios::binary | std::ios::trunc)
+    explicit Writer(const std::filesystem::path& file)
+        : file_(file), out_(file, std::ios::binary | std::ios::trunc)
     {
-        if (!out_) throw Error(fmt::format("{}: cannot be written; choose a folder that takes files", file.string()));
+        if (!out_)
+            throw Error(
+                fmt::format("{}: cannot be written; choose a folder that takes files", file.string()));
     }
     void put(const void* data, std::size_t bytes)
     {
@@ -69,7 +72,9 @@ class Writer
         const std::uint64_t sum = sum_.value();
         out_.write(reinterpret_cast<const char*>(&sum), sizeof sum);
         out_.close();
-        if (!out_) throw Error(fmt::format("{}: could not be written whole (disk full?); free some space", file_.string()));
+        if (!out_)
+            throw Error(
+                fmt::format("{}: could not be written whole (disk full?); free some space", file_.string()));
     }
 
   private:
@@ -85,10 +90,12 @@ class Reader
     {
         std::error_code error;
         if (!std::filesystem::is_regular_file(file, error))
-            throw Error(fmt::format("{}: is not a file; give a snapshot that spindrift wrote", file.string()));
+            throw Error(
+                fmt::format("{}: is not a file; give a snapshot that spindrift wrote", file.string()));
         bytes_left_ = std::filesystem::file_size(file, error);
         in_.open(file, std::ios::binary);
-        if (error || !in_) throw Error(fmt::format("{}: cannot be read; check its permissions", file.string()));
+        if (error || !in_)
+            throw Error(fmt::format("{}: cannot be read; check its permissions", file.string()));
     }
     void get(void* data, std::size_t bytes)
     {
@@ -135,7 +142,8 @@ Header read_header(Reader& in)
 {
     Header h{};
     in.get(&h, sizeof h);
-    if (h.magic != kMagic) in.fail("has not the mark of one (foreign file); give a file that spindrift wrote");
+    if (h.magic != kMagic)
+        in.fail("has not the mark of one (foreign file); give a file that spindrift wrote");
     if (h.version != kVersion) in.fail("is of another version; write it again with this program");
     if (h.arrays != kArrays) in.fail("has not eleven arrays (damaged); write it again");
     // each factor is checked alone, so that the product cannot wrap

@@ -8,7 +8,8 @@
 namespace spindrift::cpu
 {
 
-/// Writes a snapshot beside `file` and renames it when it is whole. Throws Error if the disk does not take it.
+/// Writes a snapshot beside `file` and renames it when it is whole. Throws Error if the disk does not take
+/// it.
 void write_snapshot(const Snapshot& snapshot, const std::filesystem::path& file);
 
 /// Throws Error for a file that is missing, foreign, of another version, truncated or damaged.

@@ -61,7 +61,8 @@ void add(Hasher& h, const Wind& w)
 {
     h.all(w.kind, w.turbulent);
     h.add(w.uniform_m_s);
-    h.all(w.friction_velocity_m_s, w.roughness_m, w.ground_m, w.boundary_layer_m, w.to_x, w.to_y, w.nx, w.ny, w.nz);
+    h.all(w.friction_velocity_m_s, w.roughness_m, w.ground_m, w.boundary_layer_m, w.to_x, w.to_y, w.nx, w.ny,
+          w.nz);
     h.add(w.origin_m), h.add(w.cell_m);
     static_assert(sizeof(WindCell) == 16 * sizeof(float), "no padding");
     h.add(w.cells.size());
