@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "scene/describe_scene.h"
-#include "scene/nearest_name.h"
 
 namespace spindrift::scene
 {
@@ -167,14 +166,7 @@ void describe_follows(Section& section, EmitterSettings& settings,
                  settings.follows);
     std::vector<std::string_view> names{"camera"};
     for (const VehicleSettings& vehicle : vehicles) names.push_back(vehicle.name);
-    const bool known =
-        settings.follows.empty() || std::find(names.begin(), names.end(), settings.follows) != names.end();
-    const std::string_view nearest = nearest_name(settings.follows, names);
-    section.require(
-        known, "follows",
-        fmt::format("names no vehicle of this scene ({})",
-                    nearest.empty() ? "a sky follows what exists" : fmt::format("nearest: {}", nearest)),
-        "use " + listed(names));
+    require_vehicle(section, "follows", settings.follows, names);
 }
 
 void describe_amount(Section& section, Emitter& emitter, const Scene& scene, std::uint64_t& bursts)

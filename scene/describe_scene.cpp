@@ -83,19 +83,24 @@ void describe_vehicle(Section& section, std::vector<VehicleSettings>& vehicles)
 
 }  // namespace
 
+void require_vehicle(Section& section, std::string_view key, std::string_view name,
+                     std::span<const std::string_view> names)
+{
+    if (name.empty() || std::find(names.begin(), names.end(), name) != names.end()) return;
+    const std::string_view nearest = nearest_name(name, names);
+    section.require(false, key,
+                    nearest.empty() ? "names no vehicle of this scene (a [[vehicle]] must have that name)"
+                                    : fmt::format("names no vehicle of this scene (nearest: {})", nearest),
+                    names.empty() ? "add a [[vehicle]]" : "use " + listed(names));
+}
+
 void describe_vehicle_reference(Section& section, std::string_view about, std::string& name,
                                 const std::vector<VehicleSettings>& vehicles)
 {
     section.text({.name = "vehicle", .about = about}, name);
     std::vector<std::string_view> names;
     for (const VehicleSettings& vehicle : vehicles) names.push_back(vehicle.name);
-    const bool known = name.empty() || std::find(names.begin(), names.end(), name) != names.end();
-    const std::string_view nearest = nearest_name(name, names);
-    section.require(known, "vehicle",
-                    fmt::format("names no vehicle of this scene ({})",
-                                nearest.empty() ? "a [[vehicle]] must have that name"
-                                                : fmt::format("nearest: {}", nearest)),
-                    names.empty() ? "add a [[vehicle]]" : "use " + listed(names));
+    require_vehicle(section, "vehicle", name, names);
 }
 
 void describe_scene(Section& root, Scene& scene)

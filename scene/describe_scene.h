@@ -24,6 +24,11 @@ inline constexpr Range kCoordinate{
 
 /// Bytes that one flake takes: state and draw list (core/flake.h).
 inline constexpr double kBytesPerFlake = kStateBytesPerFlake + kDrawListBytesPerFlake;
+static_assert(kBytesPerFlake == 60, "messages and docs/scenes.md say 60 B");
+
+/// Throws at `key` unless `name` is empty or among `names`.
+void require_vehicle(Section& section, std::string_view key, std::string_view name,
+                     std::span<const std::string_view> names);
 
 /// A key `vehicle` that names a vehicle of the scene or none.
 void describe_vehicle_reference(Section& section, std::string_view about, std::string& name,

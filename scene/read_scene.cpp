@@ -151,6 +151,11 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& name, cons
     return scene;
 }
 
+std::string read_about(const std::filesystem::path& file)
+{
+    return TomlDocument(read_text(file), file.string()).text("scene", "about");
+}
+
 Scene read_scene(const std::filesystem::path& file, const SceneOverrides& overrides)
 {
     return parse_scene(read_text(file), file, overrides);

@@ -15,9 +15,9 @@
 namespace spindrift::scene
 {
 
-// A scene as its file states it, validated, immutable afterwards. Lengths are metres in the world frame of the file
-// (z up); directions of wind follow the meteorological habit (where it blows FROM, degrees clockwise from north = +y).
-// docs/scenes.md lists every key with unit, range and default.
+// A scene as its file states it, validated, immutable afterwards. Lengths are metres in the world frame of
+// the file (z up); directions of wind follow the meteorological habit (where it blows FROM, degrees clockwise
+// from north = +y). docs/scenes.md lists every key with unit, range and default.
 
 /// Linear scene-referred colour, Rec.709 primaries.
 struct Colour
@@ -46,11 +46,11 @@ struct WindSettings
     double speed_m_s = 0;
     double from_direction_deg = 270;
     double vertical_m_s = 0;
-    double reference_height_m = 10;     ///< at which speed_m_s holds (logarithmic)
+    double reference_height_m = 10;  ///< at which speed_m_s holds (logarithmic)
     double roughness_m = 0.1;
-    double friction_velocity_m_s = 0;   ///< > 0: given instead of speed_m_s
+    double friction_velocity_m_s = 0;  ///< > 0: given instead of speed_m_s
     double boundary_layer_m = 1000;
-    bool turbulence = true;             ///< surface-layer closure, or the turbulence file
+    bool turbulence = true;      ///< surface-layer closure, or the turbulence file
     bool around_solids = false;  ///< logarithmic: put on a grid and made divergence-free round the solids
     double cell_m = 2;           ///< of that grid
     std::filesystem::path winds_file, turbulence_file;  ///< source = file; turbulence_file may be empty
@@ -58,8 +58,8 @@ struct WindSettings
 
 struct EmitterSettings
 {
-    Emitter emitter;         ///< positions still in the world frame
-    std::string follows;     ///< sky: "" fixed, "camera", or the name of a vehicle
+    Emitter emitter;      ///< positions still in the world frame
+    std::string follows;  ///< sky: "" fixed, "camera", or the name of a vehicle
 };
 
 enum class GroundKind
@@ -72,7 +72,7 @@ enum class GroundKind
 struct GroundSettings
 {
     GroundKind kind = GroundKind::plane;
-    double height_m = 0;  ///< plane; datum of a height field
+    double height_m = 0;         ///< plane; datum of a height field
     std::filesystem::path file;  ///< height field: grey PNG (8 or 16 bit), spans the domain in x and y
     double relief_m = 1;         ///< height of its white above its black
     Surface surface;
@@ -93,8 +93,8 @@ struct ModelSettings
     Vec3d position_m{};
     double yaw_deg = 0;
     double scale = 1;
-    bool y_up = true;    ///< the file's up axis is y (OBJ and glTF habit); else z
-    bool solid = true;   ///< flakes meet it
+    bool y_up = true;   ///< the file's up axis is y (OBJ and glTF habit); else z
+    bool solid = true;  ///< flakes meet it
     Surface surface;
     std::string vehicle;  ///< not empty: drawn at the vehicle's place (and then never solid)
 };
@@ -115,15 +115,15 @@ struct Light
     LightKind kind = LightKind::point;
     bool flashing = false;
     double flash_rate_hz = 1;
-    double flash_duty = 0.5;   ///< share of the period that it is on, 0..1
-    double flash_phase = 0;    ///< share of the period by which it is ahead, 0..1
+    double flash_duty = 0.5;  ///< share of the period that it is on, 0..1
+    double flash_phase = 0;   ///< share of the period by which it is ahead, 0..1
     Vec3d position_m{};
     Vec3d direction{0, 0, -1};  ///< unit; the way the light travels (spot, directional)
-    Colour intensity;           ///< point, spot: radiant intensity in W/sr; directional: irradiance in W/m2; HDR
+    Colour intensity;  ///< point, spot: radiant intensity in W/sr; directional: irradiance in W/m2; HDR
     double range_m = std::numeric_limits<double>::infinity();
     double inner_cone_deg = 20, outer_cone_deg = 30;  ///< half angles
-    double g = 0.77;            ///< Henyey-Greenstein asymmetry of flakes in this light, in (-1, 1)
-    std::string vehicle;        ///< not empty: position and direction are relative to it
+    double g = 0.77;      ///< Henyey-Greenstein asymmetry of flakes in this light, in (-1, 1)
+    std::string vehicle;  ///< not empty: position and direction are relative to it
 };
 
 struct SkySettings
@@ -216,7 +216,12 @@ struct SceneOverrides
 /// Reads and validates a TOML scene. Throws Error: "file:line: key = value is wrong (why); what is allowed".
 Scene read_scene(const std::filesystem::path& file, const SceneOverrides& overrides = {});
 
-/// The same from text, for tests and the fuzzer; `name` stands for the file in messages.
-Scene parse_scene(std::string_view text, const std::filesystem::path& name, const SceneOverrides& overrides = {});
+/// What a scene says of itself (scene.about), also where the rest of it needs a command line to be whole.
+/// Throws Error for a file that cannot be read or is not TOML.
+std::string read_about(const std::filesystem::path& file);
+
+/// The same as read_scene from text, for tests and the fuzzer; `name` stands for the file in messages.
+Scene parse_scene(std::string_view text, const std::filesystem::path& name,
+                  const SceneOverrides& overrides = {});
 
 }  // namespace spindrift::scene

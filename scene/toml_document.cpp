@@ -417,6 +417,11 @@ void TomlDocument::set(std::string_view table, std::string_view key, const Value
     std::visit([&](const auto& plain) { inner->insert_or_assign(key, plain); }, value);
 }
 
+std::string TomlDocument::text(std::string_view table, std::string_view key) const
+{
+    return parsed_->root[table][key].value_or(std::string());
+}
+
 void TomlDocument::require(bool ok, std::string_view table, std::string_view key, std::string_view why,
                            std::string_view allowed) const
 {

@@ -15,7 +15,7 @@ namespace spindrift::scene
 {
 
 /// A scene is a few kilobytes; more than this is not read.
-inline constexpr std::size_t kMaxSceneBytes = 8 * 1024 * 1024;
+inline constexpr std::size_t kMaxSceneBytes = 1024 * 1024;
 
 /// A TOML text, parsed, with the place of every value. Hides the TOML library from everybody else.
 class TomlDocument
@@ -32,6 +32,8 @@ class TomlDocument
     /// Sets [table] key as a command line would; errors about the value name the command line instead of a
     /// line.
     void set(std::string_view table, std::string_view key, const Value& value);
+    /// The text at [table] key; "" if there is none.
+    std::string text(std::string_view table, std::string_view key) const;
     /// Throws Error at the place of [table] key if `ok` is false.
     void require(bool ok, std::string_view table, std::string_view key, std::string_view why,
                  std::string_view allowed) const;

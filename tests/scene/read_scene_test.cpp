@@ -233,6 +233,8 @@ TEST(ReadScene, EveryReadySceneIsWhole)
             overrides.winds_file = "w.nc";
         }
         const Scene scene = read_scene(entry.path(), overrides);
+        EXPECT_EQ(read_about(entry.path()), scene.about);
+        EXPECT_FALSE(scene.about.empty()) << entry.path();
         for (const ModelSettings& model : scene.models)
             EXPECT_TRUE(std::filesystem::exists(kScenes / model.file)) << model.file;
         const bool field = scene.ground.kind == GroundKind::height_field;

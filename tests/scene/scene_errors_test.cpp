@@ -61,8 +61,8 @@ TEST(SceneErrors, DeepNesting)
 TEST(SceneErrors, TooLong)
 {
     EXPECT_EQ(
-        error_of(std::string(8 * 1024 * 1024 + 1, '\n')),
-        "s.toml:1: the file holds 8388609 bytes (a scene is a few kilobytes of text); use at most 8388608");
+        error_of(std::string(1024 * 1024 + 1, '\n')),
+        "s.toml:1: the file holds 1048577 bytes (a scene is a few kilobytes of text); use at most 1048576");
 }
 
 TEST(SceneErrors, LongAndStrangeValuesStayOneLine)
