@@ -372,8 +372,8 @@ TEST(SceneErrors, NamesTwiceAndReferencesToNobody)
          "name "
          "once"},
         {with(plow + "[[emitter]]\nshape = \"sky\"\nsize_m = [2, 2, 2]\nburst = 3\nfollows = \"plough\"\n"),
-         "s.toml:17: emitter[1].follows = \"plough\" names no vehicle of this scene (a sky follows what "
-         "exists); use camera or "
+         "s.toml:17: emitter[1].follows = \"plough\" names no vehicle of this scene (a [[vehicle]] must have "
+         "that name); use camera or "
          "plow"},
         {with(plow + "[[emitter]]\nshape = \"sky\"\nsize_m = [2, 2, 2]\nburst = 3\nfollows = \"plwo\"\n"),
          "s.toml:17: emitter[1].follows = \"plwo\" names no vehicle of this scene (nearest: plow); use "
