@@ -153,9 +153,7 @@ struct WalkResult
 /// face that component of the rest of the displacement changes sign, so the path keeps its length; at a face
 /// where it lands or vanishes it ends just outside the solid. It never ends inside a solid. A start on the
 /// very face of a solid counts as outside; an edge or corner that is met exactly counts as met. Source:
-/// Amanatides and Woo, "A fast voxel traversal algorithm for ray tracing", Eurographics 1987, with
-/// reflection: every axis keeps the point and the time at which it last turned, so that nothing adds up
-/// rounding errors.
+/// Amanatides and Woo, "A fast voxel traversal algorithm for ray tracing", Eurographics 1987.
 template <class R>
 class VoxelWalker
 {
@@ -203,7 +201,7 @@ class VoxelWalker
             if (events == kMostWalkEvents)
             {
                 result_.fault = WalkFault::gave_up;
-                finish(kNoAxis);
+                finish(kNoAxis, R(0));
                 return false;
             }
             if (!advance()) return false;
@@ -211,12 +209,21 @@ class VoxelWalker
         return true;
     }
 
+    /// Position = sign (from + speed time) + offset, in cells: a bounce changes sign and offset only, so that
+    /// no number of bounces adds up rounding errors.
     struct Axis
     {
-        R from, turned_at, speed;  ///< position = from + speed (time - turned_at), in cells
+        R from, speed, sign, offset;
         int cell;
-        SPINDRIFT_HD R at(R time) const { return from + speed * (time - turned_at); }
-        SPINDRIFT_HD R time_of(R place) const { return turned_at + (place - from) / speed; }
+        SPINDRIFT_HD R at(R time) const { return sign * (from + speed * time) + offset; }
+        SPINDRIFT_HD R time_of(R place) const { return (sign * (place - offset) - from) / speed; }
+        SPINDRIFT_HD bool rises() const { return sign * speed > R(0); }
+        SPINDRIFT_HD bool falls() const { return sign * speed < R(0); }
+        SPINDRIFT_HD void mirror(R face)
+        {
+            sign = -sign;
+            offset = face + face - offset;
+        }
     };
 
     SPINDRIFT_HD R origin(int k) const
@@ -248,7 +255,8 @@ class VoxelWalker
         {
             Axis& axis = axes_[k];
             axis.from = (p[k] - origin(k)) * scale;
-            axis.turned_at = R(0);
+            axis.sign = R(1);
+            axis.offset = R(0);
             axis.speed = d[k] * scale;
             if (!(abs(axis.from) < R(0x1p22) && abs(axis.speed) < R(0x1p22)))
             {
@@ -291,7 +299,7 @@ class VoxelWalker
     SPINDRIFT_HD bool advance()
     {
         const R never = infinity<R>();
-        const R ground_time = solids_.has_ground && axes_[2].speed < R(0) ? axes_[2].time_of(ground_) : never;
+        const R ground_time = solids_.has_ground && axes_[2].falls() ? axes_[2].time_of(ground_) : never;
         const int free_cells = clearance(axes_[0].cell, axes_[1].cell, axes_[2].cell) - 1;
         if (free_cells > 0) return jump(free_cells, ground_time);
 
@@ -301,7 +309,7 @@ class VoxelWalker
         {
             const Axis& axis = axes_[k];
             if (axis.speed == R(0)) continue;
-            const R face = to_real<R>(axis.speed > R(0) ? axis.cell + 1 : axis.cell);
+            const R face = to_real<R>(axis.rises() ? axis.cell + 1 : axis.cell);
             const R time = axis.time_of(face);
             if (time < next_time) next = k, next_time = time;
         }
@@ -329,7 +337,7 @@ class VoxelWalker
     SPINDRIFT_HD bool cross(int k)
     {
         Axis& axis = axes_[k];
-        const int step = axis.speed > R(0) ? 1 : -1;
+        const int step = axis.rises() ? 1 : -1;
         const R face = to_real<R>(step > 0 ? axis.cell + 1 : axis.cell);
         int cell[3] = {axes_[0].cell, axes_[1].cell, axes_[2].cell};
         cell[k] += step;
@@ -356,14 +364,10 @@ class VoxelWalker
         if (first_only_ || surface.contact != Contact::bounce)
         {
             result_.fate = surface.contact == Contact::land ? Fate::landed : Fate::vanished;
-            axis.from = face;
-            axis.turned_at = time_;
-            finish(k);
+            finish(k, face);
             return false;
         }
-        axis.from = face;
-        axis.turned_at = time_;
-        axis.speed = -axis.speed;
+        axis.mirror(face);
         result_.mirrored ^= 1U << k;
         turned_ |= 1U << k;
         ++result_.bounces;
@@ -373,12 +377,12 @@ class VoxelWalker
     }
 
     /// Ends here and now; `contact` is the axis of the face that it touches.
-    SPINDRIFT_HD void finish(int contact)
+    SPINDRIFT_HD void finish(int contact, R face)
     {
-        Vec3<R> end{to_metres(0, axes_[0].at(time_)), to_metres(1, axes_[1].at(time_)),
-                    to_metres(2, axes_[2].at(time_))};
-        if (contact == 2 && result_.surface == kGroundSurface) end.z = R(solids_.ground_m);
-        result_.end = keep_outside(end);
+        R end[3];
+        for (int k = 0; k < 3; ++k) end[k] = to_metres(k, k == contact ? face : axes_[k].at(time_));
+        if (contact == 2 && result_.surface == kGroundSurface) end[2] = R(solids_.ground_m);
+        result_.end = keep_outside({end[0], end[1], end[2]});
     }
 
     /// Ends after the whole displacement: axes that never turned get start + displacement, as a flake in free
