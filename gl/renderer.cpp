@@ -9,6 +9,7 @@
 
 #include "gl/active_lights.h"
 #include "gl/crystal_texture.h"
+#include "gl/flake_look.h"
 #include "gl/flake_pass.h"
 #include "gl/frame_constants.h"
 #include "gl/full_screen_pass.h"
@@ -23,16 +24,6 @@ namespace spindrift::gl
 namespace
 {
 
-// Radius at which software GL's points end (255 px across); docs/drawing.md.
-constexpr float kLargestPointRadius = 127.0F;
-
-float largest_radius_px(const View& view)
-{
-    std::array<GLfloat, 2> range{1, 1};
-    glGetFloatv(GL_POINT_SIZE_RANGE, range.data());
-    return std::min({std::round(view.guard_px), kLargestPointRadius, 0.5F * range[1]});
-}
-
 FrameConstants::Vec4 vec4(const Vec3f& v, float w)
 {
     return {v.x, v.y, v.z, w};
@@ -40,14 +31,6 @@ FrameConstants::Vec4 vec4(const Vec3f& v, float w)
 FrameConstants::Vec4 vec4(const scene::Colour& c, float w)
 {
     return {c.r, c.g, c.b, w};
-}
-
-// 1 / Lambda of the size spectrum.
-float mean_melted_mm(const Snow& snow)
-{
-    const bool gunn = snow.spectrum == SizeSpectrum::gunn_marshall;
-    return static_cast<float>(gunn ? std::pow(snow.rate_mm_h, 0.48) / 2.55
-                                   : std::pow(snow.rate_mm_h, 0.45) / 2.29);
 }
 
 }  // namespace
@@ -138,7 +121,8 @@ FrameConstants Renderer::Impl::constants(const View& view, std::size_t lights, d
     c.horizon_focal = vec4(scene.sky.horizon, height / (2 * tan_y));
     c.look = {mean_melted_mm(snow), scale, static_cast<float>(scene.render.flake_opacity),
               snow.weight / (scale * scale)};
-    c.sprite = {largest_radius_px(view), width / (width + 2 * guard), height / (height + 2 * guard), guard};
+    c.sprite = {sprite_limits(view).largest_px, width / (width + 2 * guard), height / (height + 2 * guard),
+                guard};
     c.counts = {static_cast<std::uint32_t>(lights), static_cast<std::uint32_t>(seed),
                 static_cast<std::uint32_t>(masks.size()), 0};
     c.picture = {width, height, 0, 0};
@@ -177,10 +161,11 @@ void Renderer::Impl::draw_flakes(const FramePlan& plan, const View& view, const 
     if (fades) timed("fade", [&] { picture.copy_depth(); });
     if (!plan.runs("flakes")) return;
     glBindTextureUnit(kMasks, mask_texture.name());
-    timed("flakes",
-          [&] {
-              flakes.draw({view, list, fades ? picture.depth_copy.name() : 0, largest_radius_px(view)});
-          });
+    timed(
+        "flakes",
+        [&] {
+            flakes.draw({view, list, fades ? picture.depth_copy.name() : 0, sprite_limits(view).largest_px});
+        });
     if (flakes_read != nullptr) glDeleteSync(flakes_read);
     flakes_read = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
 }
