@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/light.h"
 #include "scene/make_world.h"
 
 namespace spindrift::gl
@@ -21,9 +22,7 @@ bool shines(const scene::Light& light)
 
 bool lit_at(const scene::Light& light, double time_s)
 {
-    if (!light.flashing) return true;
-    const double cycles = time_s * light.flash_rate_hz + light.flash_phase;
-    return cycles - std::floor(cycles) < light.flash_duty;
+    return !light.flashing || flash_is_on(time_s, light.flash_rate_hz, light.flash_duty, light.flash_phase);
 }
 
 Vec3f to_float(const Vec3d& v)
@@ -77,7 +76,8 @@ PackedLight pack(const scene::Light& light, const Vec3f& position_m)
     if (light.kind == scene::LightKind::spot)
     {
         const float outer = cosine_deg(light.outer_cone_deg);
-        const float scale = 1.0F / std::max(0.001F, cosine_deg(light.inner_cone_deg) - outer);
+        const float scale =
+            1.0F / std::max(static_cast<float>(kNarrowestCone), cosine_deg(light.inner_cone_deg) - outer);
         packed.direction[3] = scale;
         packed.limits[0] = -outer * scale;
     }

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/snow.h"
 #include "gl/flake_look.h"
 #include "gl/object.h"
 #include "gl/picture.h"
@@ -33,6 +34,7 @@ std::vector<Point> place_points(const scene::Scene& scene, const World& world, c
     const double focal_px = view.height_px / (2.0 * view.tan_half_fov_y);
     const double half_width = 0.5 * view.width_px + static_cast<double>(view.guard_px);
     const double half_height = 0.5 * view.height_px + static_cast<double>(view.guard_px);
+    const FlakeSizes sizes(world.snow, world.seed);
     const SpriteLimits limits = sprite_limits(view);
     std::vector<Point> points;
     points.reserve(list.count);
@@ -43,7 +45,7 @@ std::vector<Point> place_points(const scene::Scene& scene, const World& world, c
         const double z = dot(rel, view.forward);
         const double px_per_m = focal_px / z;
         const double radius =
-            0.5 * flake_diameter_m(world, flakes.id[slot]) * scene.render.flake_scale * px_per_m;
+            0.5 * sizes.diameter_m<double>(flakes.id[slot]) * scene.render.flake_scale * px_per_m;
         points.push_back({static_cast<float>(dot(rel, view.right) * px_per_m / half_width),
                           static_cast<float>(dot(rel, view.up) * px_per_m / half_height),
                           static_cast<float>(view.near_m / z),

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/philox.h"
+#include "core/snow.h"
 
 namespace spindrift::gl
 {
@@ -24,17 +24,7 @@ SpriteLimits sprite_limits(const View& view)
 
 float mean_melted_mm(const Snow& snow)
 {
-    const bool gunn = snow.spectrum == SizeSpectrum::gunn_marshall;
-    return static_cast<float>(gunn ? std::pow(snow.rate_mm_h, 0.48) / 2.55
-                                   : std::pow(snow.rate_mm_h, 0.45) / 2.29);
-}
-
-double flake_diameter_m(const World& world, std::uint32_t id)
-{
-    const std::uint32_t hash = mix32(mix32(id ^ static_cast<std::uint32_t>(world.seed)));
-    const double u = ((hash >> 8) + 0.5) / 16777216.0;
-    const double melted_mm = -std::log(u) * static_cast<double>(mean_melted_mm(world.snow));
-    return std::clamp(std::sqrt(melted_mm * melted_mm * melted_mm / 0.17), 0.2, 20.0) * 1e-3;
+    return static_cast<float>(1.0 / size_law(snow.spectrum, static_cast<double>(snow.rate_mm_h)).slope);
 }
 
 }  // namespace spindrift::gl

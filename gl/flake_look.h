@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
-
 #include "core/view.h"
 #include "core/world.h"
 
@@ -19,8 +17,5 @@ SpriteLimits sprite_limits(const View& view);
 
 /// 1 / Lambda of the size spectrum, mm of melted diameter.
 float mean_melted_mm(const Snow& snow);
-
-/// Diameter of a flake before flake_scale.
-double flake_diameter_m(const World& world, std::uint32_t id);
 
 }  // namespace spindrift::gl

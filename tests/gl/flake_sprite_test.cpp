@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/snow.h"
 #include "scene/crystals.h"
 #include "tests/gl/stage.h"
 
@@ -79,15 +80,7 @@ TEST_F(FlakeSprite, SmallFlakeFollowsTheGaussianTimesTheMeanMask)
 
 std::size_t FlakeSprite::shape_of(std::uint32_t id) const
 {
-    const auto mix = [](std::uint32_t h)
-    {
-        h ^= h >> 16;
-        h *= 0x85ebca6bU;
-        h ^= h >> 13;
-        h *= 0xc2b2ae35U;
-        return h ^ (h >> 16);
-    };
-    return mix(mix(id ^ static_cast<std::uint32_t>(world.seed)) + 0x9E3779B9U) % scene::kCrystalShapes;
+    return flake_turn(world.seed, id, scene::kCrystalShapes).shape;
 }
 
 TEST_F(FlakeSprite, LargeFlakeShowsItsTurnedCrystal)
@@ -98,19 +91,7 @@ TEST_F(FlakeSprite, LargeFlakeShowsItsTurnedCrystal)
     const double time_s = 3.5;
     add_flake(at_pixel(view, 48, 32, depth_for(id, r)), id);
     const image::Image image = draw_and_keep("crystal", time_s);
-    const auto unit = [&](std::uint32_t k)
-    {
-        const auto mix = [](std::uint32_t h)
-        {
-            h ^= h >> 16;
-            h *= 0x85ebca6bU;
-            h ^= h >> 13;
-            h *= 0xc2b2ae35U;
-            return h ^ (h >> 16);
-        };
-        return ((mix(mix(id ^ 1U) + k * 0x9E3779B9U) >> 8) + 0.5) / 16777216.0;
-    };
-    const double angle = 2 * M_PI * unit(2) + (2 * unit(3) - 1) * M_PI * time_s;
+    const double angle = 2 * M_PI * flake_turn(world.seed, id, scene::kCrystalShapes).turns_at(time_s);
     double worst = 0;
     double sum = 0;
     for (int row = 32 - 26; row <= 32 + 26; ++row)

@@ -7,20 +7,13 @@
 #include <cmath>
 #include <fstream>
 
+#include "core/snow.h"
+
 namespace spindrift::gl
 {
 
 namespace
 {
-
-std::uint32_t mix32(std::uint32_t h)
-{
-    h ^= h >> 16;
-    h *= 0x85ebca6bU;
-    h ^= h >> 13;
-    h *= 0xc2b2ae35U;
-    return h ^ (h >> 16);
-}
 
 void append_quad(scene::Mesh& mesh, const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d,
                  const Vec3f& normal)
@@ -102,11 +95,7 @@ Stage::Stage()
 
 double Stage::diameter_m(std::uint32_t id) const
 {
-    const std::uint32_t hash = mix32(mix32(id ^ static_cast<std::uint32_t>(world.seed)));
-    const double u = ((hash >> 8) + 0.5) / 16777216.0;
-    const double per_mm = 2.55 * std::pow(static_cast<double>(world.snow.rate_mm_h), -0.48);
-    const double melted_mm = -std::log(u) / per_mm;
-    return std::clamp(std::sqrt(melted_mm * melted_mm * melted_mm / 0.17), 0.2, 20.0) * 1e-3;
+    return FlakeSizes(world.snow, world.seed).diameter_m<double>(id);
 }
 
 std::uint32_t Stage::id_of_diameter(double wanted_m) const
