@@ -38,6 +38,7 @@ enum Binding : unsigned
     kLights = 5,
     kSceneDepth = 0,
     kMasks = 1,
+    kDepthTiles = 2,
 };
 
 }  // namespace spindrift::gl

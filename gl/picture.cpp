@@ -21,6 +21,11 @@ int checked_size(int width_px, int height_px)
     return width_px;
 }
 
+int tiles(int px)
+{
+    return (px + Picture::kTilePx - 1) / Picture::kTilePx;
+}
+
 }  // namespace
 
 Picture::Picture(int width_px, int height_px)
@@ -29,14 +34,18 @@ Picture::Picture(int width_px, int height_px)
       linear(make_texture_2d(GL_RGBA16F, width, height)),
       depth(make_texture_2d(GL_DEPTH_COMPONENT32F, width, height)),
       depth_copy(make_texture_2d(GL_DEPTH_COMPONENT32F, width, height)),
+      depth_tiles(make_texture_2d(GL_R32F, tiles(width), tiles(height))),
       display(make_texture_2d(GL_RGBA8, width, height)),
       linear_target(make_framebuffer()),
+      tiles_target(make_framebuffer()),
       display_target(make_framebuffer())
 {
     glNamedFramebufferTexture(linear_target.name(), GL_COLOR_ATTACHMENT0, linear.name(), 0);
     glNamedFramebufferTexture(linear_target.name(), GL_DEPTH_ATTACHMENT, depth.name(), 0);
+    glNamedFramebufferTexture(tiles_target.name(), GL_COLOR_ATTACHMENT0, depth_tiles.name(), 0);
     glNamedFramebufferTexture(display_target.name(), GL_COLOR_ATTACHMENT0, display.name(), 0);
     require_complete(linear_target, "float picture");
+    require_complete(tiles_target, "depth tiles");
     require_complete(display_target, "display picture");
 }
 

@@ -45,7 +45,7 @@ struct Renderer::Impl
     Texture mask_texture;
     Picture picture;
     ScenePass scene_pass;
-    FullScreenPass sky, tone;
+    FullScreenPass sky, tone, depth_tiles;
     FlakePass flakes;
     Buffer frame_block;
     Buffer light_buffer;
@@ -64,6 +64,7 @@ struct Renderer::Impl
           scene_pass(s, geometry),
           sky("sky.vert", "sky.frag"),
           tone("tone.vert", "tone.frag"),
+          depth_tiles("tone.vert", "depth_tiles.frag"),
           flakes(s.render, static_cast<double>(w.snow.weight), buffers),
           frame_block(make_buffer(sizeof(FrameConstants), nullptr, GL_DYNAMIC_STORAGE_BIT))
     {
@@ -79,6 +80,7 @@ struct Renderer::Impl
     FrameConstants constants(const View& view, std::size_t lights, double time_s) const;
     void draw_solid(const FramePlan& plan, double time_s);
     void draw_flakes(const FramePlan& plan, const View& view, const DrawList& list);
+    void prepare_depth();
     void draw_tone(const FramePlan& plan);
 
     template <class Draw>
@@ -158,7 +160,7 @@ void Renderer::Impl::draw_solid(const FramePlan& plan, double time_s)
 void Renderer::Impl::draw_flakes(const FramePlan& plan, const View& view, const DrawList& list)
 {
     const bool fades = plan.runs("fade");
-    if (fades) timed("fade", [&] { picture.copy_depth(); });
+    if (fades) timed("fade", [&] { prepare_depth(); });
     if (!plan.runs("flakes")) return;
     glBindTextureUnit(kMasks, mask_texture.name());
     timed(
@@ -168,6 +170,19 @@ void Renderer::Impl::draw_flakes(const FramePlan& plan, const View& view, const 
         });
     if (flakes_read != nullptr) glDeleteSync(flakes_read);
     flakes_read = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+}
+
+void Renderer::Impl::prepare_depth()
+{
+    picture.copy_depth();
+    glBindFramebuffer(GL_FRAMEBUFFER, picture.tiles_target.name());
+    glViewport(0, 0, (picture.width + Picture::kTilePx - 1) / Picture::kTilePx,
+               (picture.height + Picture::kTilePx - 1) / Picture::kTilePx);
+    glDisable(GL_DEPTH_TEST);
+    glBindTextureUnit(kSceneDepth, picture.depth_copy.name());
+    depth_tiles.draw();
+    glBindTextureUnit(kDepthTiles, picture.depth_tiles.name());
+    glBindFramebuffer(GL_FRAMEBUFFER, picture.linear_target.name());
 }
 
 void Renderer::Impl::draw_tone(const FramePlan& plan)

@@ -10,7 +10,8 @@ layout(std430, binding = 2) readonly buffer ZArray { float z_m[]; };
 layout(std430, binding = 3) readonly buffer IdArray { uint ids[]; };
 layout(std430, binding = 4) readonly buffer DrawList { uvec2 draw_list[]; };  // slot, depth key
 layout(binding = 0) uniform sampler2D scene_depth;
-layout(location = 0) uniform int has_scene;  // scene_depth holds something
+layout(binding = 2) uniform sampler2D depth_tiles;  // farthest depth in 8x8 pixels
+layout(location = 0) uniform int has_scene;  // scene_depth and depth_tiles hold something
 
 flat out vec4 glow;  // radiance (LARGE: of the lights alone), opacity at the centre
 #ifdef LARGE
@@ -52,6 +53,19 @@ float soft_edge(vec4 clip, float z, float length_m)
     return gap > 0.0 ? min(gap / length_m, 1.0) : 1.0;
 }
 
+#ifndef LARGE
+// Whether the scene hides all of a sprite that is less than 7 px across, so that it need not be rasterised.
+bool hidden(vec4 clip, float drawn)
+{
+    if (has_scene == 0) return false;
+    vec2 centre = (clip.xy / (clip.w * sprite.yz) * 0.5 + 0.5) * picture.xy;
+    // The four tiles round the lower left corner of the sprite's box hold all of it.
+    vec2 tile = floor((centre - drawn - 0.5) * 0.125) + 1.0;
+    vec4 farthest = textureGather(depth_tiles, tile / vec2(textureSize(depth_tiles, 0)));
+    return clip.z < clip.w * min(min(farthest.x, farthest.y), min(farthest.z, farthest.w));
+}
+#endif
+
 void hide()
 {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
@@ -76,6 +90,13 @@ void main()
     vec4 clip = clip_from_view(v, sprite.yz);
     float r = radius_m * horizon_focal.w / z;
     float drawn = clamp(r, kSmallest, sprite.x);
+#ifndef LARGE
+    if (drawn < 3.5 && hidden(clip, drawn))
+    {
+        hide();
+        return;
+    }
+#endif
     gl_Position = clip;
     gl_PointSize = 2.0 * drawn;
 
