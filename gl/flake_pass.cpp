@@ -63,10 +63,10 @@ FlakePass::FlakePass(const scene::RenderSettings& settings, double weight, const
     else if (weight != settings.flake_scale * settings.flake_scale)
         defines.emplace_back("WEIGHTED");
     if (settings.sprite == scene::Sprite::point) defines.emplace_back("POINT_SPRITE");
-    programs_[kPlain] = make_program(kFiles, defines);
+    programs_[kPlain] = LitProgram(kFiles, defines);
     if (settings.blending == Blending::opaque) return;
     defines.emplace_back("LARGE");
-    programs_[kCrystal] = make_program(kFiles, defines);
+    programs_[kCrystal] = LitProgram(kFiles, defines);
 }
 
 void FlakePass::bind(const FlakeDraw& what) const
@@ -126,12 +126,13 @@ GLsizei FlakePass::count_plain(const FlakeDraw& what) const
     return low;
 }
 
-void FlakePass::draw_range(Detail detail, GLsizei first, GLsizei count, bool has_scene) const
+void FlakePass::draw_range(const FlakeDraw& what, Detail detail, GLsizei first, GLsizei count) const
 {
     if (count == 0) return;
-    const GLuint program = programs_[detail].name();
+    const GLuint program = programs_[detail].for_lights(what.lights);
     glUseProgram(program);
-    if (settings_.blending != Blending::opaque) glProgramUniform1i(program, kHasScene, has_scene ? 1 : 0);
+    if (settings_.blending != Blending::opaque)
+        glProgramUniform1i(program, kHasScene, what.scene_depth != 0 ? 1 : 0);
     glDrawArrays(GL_POINTS, first, count);
 }
 
@@ -151,9 +152,8 @@ void FlakePass::draw(const FlakeDraw& what) const
     glEnable(GL_PROGRAM_POINT_SIZE);
     glBindVertexArray(nothing_.name());
     const GLsizei plain = count_plain(what);
-    const bool has_scene = what.scene_depth != 0;
-    draw_range(kPlain, 0, plain, has_scene);
-    draw_range(kCrystal, plain, static_cast<GLsizei>(what.list.count) - plain, has_scene);
+    draw_range(what, kPlain, 0, plain);
+    draw_range(what, kCrystal, plain, static_cast<GLsizei>(what.list.count) - plain);
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_BLEND);
     glViewport(0, 0, what.view.width_px, what.view.height_px);

@@ -6,8 +6,8 @@
 #include "core/backend.h"
 #include "core/view.h"
 #include "gl/flake_buffers.h"
+#include "gl/lit_program.h"
 #include "gl/object.h"
-#include "gl/program.h"
 #include "scene/scene.h"
 
 namespace spindrift::gl
@@ -19,7 +19,7 @@ struct FlakeDraw
     const View& view;
     const DrawList& list;
     GLuint scene_depth;  ///< copy of the scene's depth; 0: nothing to fade into
-    float largest_radius_px;
+    std::size_t lights;  ///< how many are active
 };
 
 /// Draws flakes as points that the vertex shader pulls from the simulation's own buffers.
@@ -44,11 +44,11 @@ class FlakePass
     void bind(const FlakeDraw& what) const;
     void set_blending() const;
     GLsizei count_plain(const FlakeDraw& what) const;
-    void draw_range(Detail detail, GLsizei first, GLsizei count, bool has_scene) const;
+    void draw_range(const FlakeDraw& what, Detail detail, GLsizei first, GLsizei count) const;
 
     scene::RenderSettings settings_;
     const FlakeBuffers& buffers_;
-    std::array<Program, 2> programs_;  // by Detail
+    std::array<LitProgram, 2> programs_;  // by Detail
     VertexArray nothing_;
 };
 

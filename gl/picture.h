@@ -17,7 +17,8 @@ struct Picture
 
     int width, height;
     Texture linear, depth, depth_copy, depth_tiles, display;
-    Framebuffer linear_target, tiles_target, display_target;
+    Texture encoded_view;  ///< `display` seen as sRGB: what is written linearly is stored encoded
+    Framebuffer linear_target, tiles_target, encode_target, display_target;
 
     void copy_depth() const;
 };

@@ -78,8 +78,8 @@ struct Renderer::Impl
 
     void upload_lights(const std::vector<PackedLight>& lights);
     FrameConstants constants(const View& view, std::size_t lights, double time_s) const;
-    void draw_solid(const FramePlan& plan, double time_s);
-    void draw_flakes(const FramePlan& plan, const View& view, const DrawList& list);
+    void draw_solid(const FramePlan& plan, std::size_t lights, double time_s);
+    void draw_flakes(const FramePlan& plan, const View& view, const DrawList& list, std::size_t lights);
     void prepare_depth();
     void draw_tone(const FramePlan& plan);
 
@@ -133,7 +133,7 @@ FrameConstants Renderer::Impl::constants(const View& view, std::size_t lights, d
     return c;
 }
 
-void Renderer::Impl::draw_solid(const FramePlan& plan, double time_s)
+void Renderer::Impl::draw_solid(const FramePlan& plan, std::size_t lights, double time_s)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, picture.linear_target.name());
     glViewport(0, 0, picture.width, picture.height);
@@ -147,7 +147,7 @@ void Renderer::Impl::draw_solid(const FramePlan& plan, double time_s)
     if (plan.runs("scene"))
     {
         glDepthFunc(GL_GREATER);
-        timed("scene", [&] { scene_pass.draw(time_s); });
+        timed("scene", [&] { scene_pass.draw(lights, time_s); });
     }
     glDepthMask(GL_FALSE);
     if (plan.runs("sky"))
@@ -157,17 +157,14 @@ void Renderer::Impl::draw_solid(const FramePlan& plan, double time_s)
     }
 }
 
-void Renderer::Impl::draw_flakes(const FramePlan& plan, const View& view, const DrawList& list)
+void Renderer::Impl::draw_flakes(const FramePlan& plan, const View& view, const DrawList& list,
+                                 std::size_t lights)
 {
     const bool fades = plan.runs("fade");
     if (fades) timed("fade", [&] { prepare_depth(); });
     if (!plan.runs("flakes")) return;
     glBindTextureUnit(kMasks, mask_texture.name());
-    timed(
-        "flakes",
-        [&] {
-            flakes.draw({view, list, fades ? picture.depth_copy.name() : 0, sprite_limits(view).largest_px});
-        });
+    timed("flakes", [&] { flakes.draw({view, list, fades ? picture.depth_copy.name() : 0, lights}); });
     if (flakes_read != nullptr) glDeleteSync(flakes_read);
     flakes_read = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
 }
@@ -188,10 +185,13 @@ void Renderer::Impl::prepare_depth()
 void Renderer::Impl::draw_tone(const FramePlan& plan)
 {
     if (!plan.runs("tone")) return;
-    glBindFramebuffer(GL_FRAMEBUFFER, picture.display_target.name());
+    glBindFramebuffer(GL_FRAMEBUFFER, picture.encode_target.name());
+    glViewport(0, 0, picture.width, picture.height);
     glDisable(GL_DEPTH_TEST);
+    glEnable(GL_FRAMEBUFFER_SRGB);
     glBindTextureUnit(0, picture.linear.name());
     timed("tone", [&] { tone.draw(); });
+    glDisable(GL_FRAMEBUFFER_SRGB);
 }
 
 Renderer::Renderer(const scene::Scene& scene, const scene::Geometry& geometry, const World& world,
@@ -215,8 +215,8 @@ void Renderer::draw(const FramePlan& plan, const View& view, const DrawList& fla
     glNamedBufferSubData(m.frame_block.name(), 0, sizeof(constants), &constants);
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBlock, m.frame_block.name());
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    m.draw_solid(plan, time_s);
-    m.draw_flakes(plan, view, flakes);
+    m.draw_solid(plan, lights.size(), time_s);
+    m.draw_flakes(plan, view, flakes, lights.size());
     m.draw_tone(plan);
 }
 

@@ -20,12 +20,12 @@ constexpr GLint kEmission = 2;
 
 static_assert(sizeof(scene::Vertex) == 24, "position and normal, tightly packed");
 
-void set_material(const Program& program, const scene::Material& material)
+void set_material(GLuint program, const scene::Material& material)
 {
     const scene::Colour& a = material.albedo;
     const scene::Colour& e = material.emission;
-    glProgramUniform3f(program.name(), kAlbedo, a.r, a.g, a.b);
-    glProgramUniform3f(program.name(), kEmission, e.r, e.g, e.b);
+    glProgramUniform3f(program, kAlbedo, a.r, a.g, a.b);
+    glProgramUniform3f(program, kEmission, e.r, e.g, e.b);
 }
 
 template <class T>
@@ -65,8 +65,8 @@ ScenePass::Body ScenePass::make_body(const scene::Scene& scene, const scene::Mes
 }
 
 ScenePass::ScenePass(const scene::Scene& scene, const scene::Geometry& geometry)
-    : program_(make_program(kMeshFiles)),
-      ground_program_(make_program(kGroundFiles)),
+    : program_(kMeshFiles),
+      ground_program_(kGroundFiles),
       nothing_(make_vertex_array()),
       domain_(scene.domain)
 {
@@ -79,28 +79,37 @@ ScenePass::ScenePass(const scene::Scene& scene, const scene::Geometry& geometry)
     }
 }
 
-void ScenePass::draw(double time_s) const
+void ScenePass::draw_bodies(GLuint program, double time_s) const
 {
-    if (!bodies_.empty()) glUseProgram(program_.name());
+    glUseProgram(program);
     for (const Body& body : bodies_)
     {
         const Vec3f offset =
             body.vehicle ? scene::vehicle_at(*body.vehicle, domain_, time_s) : Vec3f{0, 0, 0};
-        glProgramUniform3f(program_.name(), kOffset, offset.x, offset.y, offset.z);
+        glProgramUniform3f(program, kOffset, offset.x, offset.y, offset.z);
         glBindVertexArray(body.array.name());
         for (const Part& part : body.parts)
         {
-            set_material(program_, part.material);
+            set_material(program, part.material);
             glDrawElements(GL_TRIANGLES, part.count, GL_UNSIGNED_INT,
                            reinterpret_cast<const void*>(part.first_byte));
         }
     }
-    if (!ground_) return;
-    glUseProgram(ground_program_.name());
-    glProgramUniform3f(ground_program_.name(), kOffset, 0, 0, ground_m_);
-    set_material(ground_program_, *ground_);
+}
+
+void ScenePass::draw_ground(GLuint program) const
+{
+    glUseProgram(program);
+    glProgramUniform3f(program, kOffset, 0, 0, ground_m_);
+    set_material(program, *ground_);
     glBindVertexArray(nothing_.name());
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}
+
+void ScenePass::draw(std::size_t lights, double time_s) const
+{
+    if (!bodies_.empty()) draw_bodies(program_.for_lights(lights), time_s);
+    if (ground_) draw_ground(ground_program_.for_lights(lights));
 }
 
 }  // namespace spindrift::gl

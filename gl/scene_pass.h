@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "gl/lit_program.h"
 #include "gl/object.h"
-#include "gl/program.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
 
@@ -17,7 +17,7 @@ class ScenePass
 {
   public:
     ScenePass(const scene::Scene& scene, const scene::Geometry& geometry);
-    void draw(double time_s) const;
+    void draw(std::size_t lights, double time_s) const;
 
   private:
     struct Part
@@ -33,9 +33,11 @@ class ScenePass
         std::vector<Part> parts;
         std::optional<scene::VehicleSettings> vehicle;
     };
+    void draw_bodies(GLuint program, double time_s) const;
+    void draw_ground(GLuint program) const;
     Body make_body(const scene::Scene& scene, const scene::Mesh& mesh) const;
 
-    Program program_, ground_program_;
+    LitProgram program_, ground_program_;
     VertexArray nothing_;
     std::vector<Body> bodies_;
     scene::DomainSettings domain_;

@@ -31,7 +31,7 @@ vec3 scattered(vec3 p, vec3 to_eye, out vec3 towards)
 {
     vec3 sum = vec3(0.0);
     towards = vec3(0.0);
-    for (uint i = 0u; i < counts.x; ++i)
+    for (uint i = 0u; i < kLightCount; ++i)
     {
         vec3 to_light;
         vec3 e = irradiance(lights[i], p, to_light);

@@ -7,6 +7,11 @@ struct Light
     vec4 intensity;  // W/sr or W/m2; asymmetry g
     vec4 limits;     // offset of the spot term, 1 / range, 0, 0
 };
+#ifdef LIGHTS
+const uint kLightCount = LIGHTS;
+#else
+#define kLightCount counts.x
+#endif
 layout(std430, binding = 5) readonly buffer Lights { Light lights[]; };
 
 const float kNearestLight = 0.05;  // m

@@ -13,7 +13,7 @@ void main()
     vec3 n = normal * inversesqrt(max(dot(normal, normal), 1e-20));
     if (dot(n, eye_time.xyz - place) < 0.0) n = -n;
     vec3 sum = ambient_far.rgb * (0.75 + 0.25 * n.z);
-    for (uint i = 0u; i < counts.x; ++i)
+    for (uint i = 0u; i < kLightCount; ++i)
     {
         vec3 to_light;
         vec3 e = irradiance(lights[i], place, to_light);

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "gl/lit_program.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace spindrift::gl
+{
+
+LitProgram::LitProgram(std::array<std::string_view, 2> files, std::vector<std::string_view> defines)
+    : files_(files), defines_(std::move(defines))
+{
+}
+
+GLuint LitProgram::for_lights(std::size_t count) const
+{
+    const std::size_t variant = std::min(count, kMostUnrolled + 1);
+    if (!variants_[variant])
+    {
+        std::vector<std::string_view> defines = defines_;
+        const std::string number = "LIGHTS " + std::to_string(variant) + "u";
+        if (variant <= kMostUnrolled) defines.push_back(number);
+        variants_[variant] = make_program(files_, defines);
+    }
+    return variants_[variant].name();
+}
+
+}  // namespace spindrift::gl
