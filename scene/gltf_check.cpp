@@ -178,16 +178,11 @@ class Document
         if (comma == std::string::npos) fail("the data of a buffer is cut off");
         if (uri.find(";base64") >= comma) fail("the data of a buffer is not in base64");
         const std::string_view text = std::string_view(uri).substr(comma + 1);
-        std::size_t digits = 0;
-        for (const char c : text)
-        {
-            const bool digit = (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ||
-                               c == '+' || c == '/';
-            if (digit && digits == static_cast<std::size_t>(&c - text.data()))
-                ++digits;
-            else if (c != '=')
-                fail("the base64 data of a buffer holds a strange character");
-        }
+        const std::size_t padding =
+            text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/");
+        const std::size_t digits = padding == std::string_view::npos ? text.size() : padding;
+        if (text.find_first_not_of('=', digits) != std::string_view::npos)
+            fail("the base64 data of a buffer holds a strange character");
         if (text.size() % 4 != 0 || text.size() - digits > 2) fail("the base64 data of a buffer is cut off");
         if (digits * 3 / 4 < length)
             fail(fmt::format("a buffer says {} bytes, but holds {}", length, digits * 3 / 4));

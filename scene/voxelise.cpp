@@ -185,10 +185,11 @@ Voxeliser::Voxeliser(Vec3f size_m, double cell_m, Height floor_m)
     { return std::max(1.0, std::ceil(static_cast<double>(length) / cell_m - 1e-6)); };
     const double nx = cells(size_m.x), ny = cells(size_m.y), nz = cells(size_m.z);
     if (const double count = nx * ny * nz; !(count <= static_cast<double>(kMostVoxels)))
-        throw Error(fmt::format(
-            "voxel_m = {:g} m would need {:.3g} voxels ({:.0f} x {:.0f} x {:.0f}, {:.1f} GiB); at most {} "
-            "are allowed: use larger voxels or a smaller domain",
-            cell_m, count, nx, ny, nz, count * 2 / 1073741824.0, kMostVoxels));
+        throw Error(
+            fmt::format("voxels.size_m = {:g} would need {:.3g} voxels ({:.0f} x {:.0f} x {:.0f}, {:.1f} "
+                        "GiB); at most {} "
+                        "are allowed: use larger voxels or a smaller domain",
+                        cell_m, count, nx, ny, nz, count * 2 / 1073741824.0, kMostVoxels));
     size_ = {static_cast<int>(nx), static_cast<int>(ny), static_cast<int>(nz)};
     grid_.nx = size_.nx;
     grid_.ny = size_.ny;

@@ -148,7 +148,7 @@ TEST(MakeWorld, RefusesMoreVoxelsThanMemory)
     }
     catch (const Error& error)
     {
-        EXPECT_THAT(error.what(), HasSubstr("voxel_m"));
+        EXPECT_THAT(error.what(), HasSubstr("voxels.size_m"));
         EXPECT_THAT(error.what(), HasSubstr("GiB"));
     }
 }
