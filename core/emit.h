@@ -98,11 +98,4 @@ struct StartSampler
     }
 };
 
-/// A start place on any shape but a moving sky.
-SPINDRIFT_HD Vec3f start_position(const Emitter& emitter, std::uint64_t seed, std::uint32_t id,
-                                  std::uint32_t step, std::uint32_t attempt)
-{
-    return StartSampler<float>(emitter, seed)(id, StartPlace::anywhere, step, attempt);
-}
-
 }  // namespace spindrift

@@ -122,18 +122,6 @@ inline constexpr int kMostWalkEvents = 4096;
 inline constexpr int kNoSurface = -1;
 inline constexpr int kGroundSurface = -2;
 
-/// The first face that a displacement meets.
-template <class R>
-struct WalkHit
-{
-    bool struck = false;
-    R share{1};                         ///< of the displacement
-    Vec3<R> at{};                       ///< just outside the solid
-    int axis = 0;                       ///< of the face's normal
-    int surface = kNoSurface;           ///< index into World::surfaces, or kGroundSurface
-    WalkFault fault = WalkFault::none;  ///< began_inside counts as struck, at the start
-};
-
 /// Where a displacement ends among solids.
 template <class R>
 struct WalkResult
@@ -163,26 +151,8 @@ class VoxelWalker
     /// To its end, through all bounces.
     SPINDRIFT_HD WalkResult<R> operator()(const Vec3<R>& start, const Vec3<R>& displacement)
     {
-        first_only_ = false;
         if (go(start, displacement)) finish_whole(start, displacement);
         return result_;
-    }
-
-    /// To the first face, whatever its surface does.
-    SPINDRIFT_HD WalkHit<R> first_hit(const Vec3<R>& start, const Vec3<R>& displacement)
-    {
-        first_only_ = true;
-        hit_axis_ = kNoAxis;
-        go(start, displacement);
-        WalkHit<R> hit;
-        hit.fault = result_.fault;
-        hit.struck = hit_axis_ != kNoAxis || hit.fault == WalkFault::began_inside;
-        if (!hit.struck) return hit;
-        hit.share = time_;
-        hit.at = result_.end;
-        hit.axis = max(hit_axis_, 0);
-        hit.surface = result_.surface;
-        return hit;
     }
 
   private:
@@ -347,7 +317,7 @@ class VoxelWalker
             return true;
         }
         result_.surface = surface_at(cell[0], cell[1], cell[2]);
-        return meet(k, face, first_only_ ? Surface{} : solids_.surfaces[result_.surface]);
+        return meet(k, face, solids_.surfaces[result_.surface]);
     }
 
     SPINDRIFT_HD bool touch_ground(R ground_time)
@@ -360,8 +330,7 @@ class VoxelWalker
     SPINDRIFT_HD bool meet(int k, R face, const Surface& surface)
     {
         Axis& axis = axes_[k];
-        hit_axis_ = k;
-        if (first_only_ || surface.contact != Contact::bounce)
+        if (surface.contact != Contact::bounce)
         {
             result_.fate = surface.contact == Contact::land ? Fate::landed : Fate::vanished;
             finish(k, face);
@@ -425,19 +394,8 @@ class VoxelWalker
     WalkResult<R> result_;
     Axis axes_[3];
     R time_{};
-    R ground_{};  ///< height of the ground in cells
-    bool first_only_ = false;
-    int hit_axis_ = kNoAxis;
+    R ground_{};                ///< height of the ground in cells
     std::uint32_t turned_ = 0;  ///< bit k: axis k has bounced
 };
-
-/// The first solid cell on the way.
-template <class R>
-SPINDRIFT_HD WalkHit<R> walk(const Voxels& voxels, const Vec3<R>& start, const Vec3<R>& displacement)
-{
-    Solids solids;
-    solids.voxels = voxels;
-    return VoxelWalker<R>(solids).first_hit(start, displacement);
-}
 
 }  // namespace spindrift

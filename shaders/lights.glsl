@@ -29,10 +29,12 @@ vec3 irradiance(Light light, vec3 p, out vec3 to_light)
     return light.intensity.rgb * (spot * spot * window / (near * near));
 }
 
-// Henyey-Greenstein (Astrophys. J. 93, 1941) in the form that is stable near |g| = 1; mu = 1: straight on.
+// Henyey-Greenstein (Astrophys. J. 93, 1941) in the form that is stable near |g| = 1 for both signs, as core/phase.h has it;
+// mu = 1: straight on.
 float phase(float g, float mu)
 {
-    float a = 1.0 - g;
-    float d = max(a * a + 2.0 * g * (1.0 - mu), 1e-10);
-    return (1.0 - g * g) / (12.566370614 * d * sqrt(d));
+    float size = abs(g);
+    float rest = 1.0 - size;
+    float d = max(rest * rest + 2.0 * size * (1.0 - (g < 0.0 ? -mu : mu)), 1e-10);
+    return rest * (1.0 + size) / (12.566370614 * d * sqrt(d));
 }

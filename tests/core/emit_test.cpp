@@ -160,7 +160,7 @@ TEST(StartSampler, DrawsAnewForEveryAttemptAndStep)
     const float first = sampler(3U).x;
     EXPECT_NE(first, sampler(3U, StartPlace::anywhere, 1).x);
     EXPECT_NE(first, sampler(3U, StartPlace::anywhere, 0, 1).x);
-    EXPECT_EQ(first, spindrift::start_position(e, 1, 3, 0, 0).x);
+    EXPECT_EQ(first, sampler(3U).x);
 }
 
 TEST(Emission, AddsUpExactlyForAnyRateAndStep)
