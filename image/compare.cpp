@@ -29,7 +29,7 @@ class Gatherer
     {
         if (std::isnan(off) || std::isnan(a) || std::isnan(b)) off = kInfinity;
         const double linear = std::isinf(off) ? kInfinity : a - b;
-        squares_ += linear * linear;
+        pixel_squares_ += linear * linear;
         norm_ += std::isnan(b) ? 0 : b * b;
         worst_ = std::max(worst_, off);
         pixel_worst_ = std::max(pixel_worst_, off);
@@ -37,7 +37,11 @@ class Gatherer
 
     void end_pixel()
     {
-        above_ += pixel_worst_ > tolerance_ ? 1 : 0;
+        const bool above = pixel_worst_ > tolerance_;
+        squares_ += pixel_squares_;
+        rest_squares_ += above ? 0 : pixel_squares_;
+        above_ += above ? 1 : 0;
+        pixel_squares_ = 0;
         pixel_worst_ = 0;
         ++pixels_;
     }
@@ -47,12 +51,20 @@ class Gatherer
         Difference out;
         out.worst = worst_;
         out.share_above = pixels_ > 0 ? above_ / pixels_ : 0;
-        if (squares_ > 0) out.relative_l2 = norm_ > 0 ? std::sqrt(squares_ / norm_) : kInfinity;
+        out.relative_l2 = relative(squares_);
+        out.rest_relative_l2 = relative(rest_squares_);
         return out;
     }
 
   private:
+    double relative(double squares) const
+    {
+        if (squares == 0) return 0;
+        return norm_ > 0 ? std::sqrt(squares / norm_) : kInfinity;
+    }
+
     double tolerance_;
+    double pixel_squares_ = 0, rest_squares_ = 0;
     double squares_ = 0, norm_ = 0, worst_ = 0, pixel_worst_ = 0, above_ = 0, pixels_ = 0;
 };
 

@@ -8,9 +8,10 @@ namespace spindrift::image
 
 struct Difference
 {
-    double relative_l2 = 0;  ///< |a - b| / |b| over RGB in linear light
-    double worst = 0;        ///< largest |a - b| of a channel
-    double share_above = 0;  ///< share of pixels with a channel that differs by more than `tolerance`
+    double relative_l2 = 0;       ///< |a - b| / |b| over RGB in linear light
+    double worst = 0;             ///< largest |a - b| of a channel
+    double share_above = 0;       ///< share of pixels with a channel that differs by more than `tolerance`
+    double rest_relative_l2 = 0;  ///< relative_l2 without the pixels that share_above counts
 };
 
 /// Compares RGB of two pictures of one size, `b` being the truth. A NaN on either side is an infinite

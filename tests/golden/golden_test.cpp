@@ -27,18 +27,10 @@ const std::filesystem::path kPictures = SPINDRIFT_SOURCE_DIR "/tests/golden/pict
 constexpr int kLevels = 3;
 constexpr double kShareOff = 1e-3;
 
-/// One showing and how near GL must come to the reference.
-struct Case
-{
-    Showing showing;
-    double most_relative_l2;
-    double most_share_off;  ///< of the pixels may be off by more than 1e-2 of white
-};
-
-void PrintTo(const Case& c, std::ostream* out)
-{
-    *out << c.showing.name;
-}
+/// How near GL must come to the reference: pixels on silhouettes may fall on either side, the others are
+/// rounded.
+constexpr double kMostShareOff = 5e-4;
+constexpr double kMostRelativeL2 = 1e-3;
 
 bool updating()
 {
@@ -46,7 +38,7 @@ bool updating()
     return value != nullptr && std::string(value) == "1";
 }
 
-class Golden : public testing::TestWithParam<Case>
+class Golden : public testing::TestWithParam<Showing>
 {
   protected:
     static void SetUpTestSuite() { context_ = gl::make_headless_context(); }
@@ -84,19 +76,18 @@ image::Image8 developed(const image::Image& linear, double exposure)
 
 TEST_P(Golden, LooksAsItDid)
 {
-    const Case& c = GetParam();
-    const std::string& name = c.showing.name;
-    const Shown shown = show(c.showing);
+    const std::string& name = GetParam().name;
+    const Shown shown = show(GetParam());
     EXPECT_EQ(shown.errors, "");
     EXPECT_GT(shown.drawn, 0U);
 
     const image::Difference truth = image::compare(shown.linear, shown.reference, 1e-2);
     fmt::print(
-        "{}: {} flakes drawn; reference: relative L2 {:.2e}, worst {:.2e}, {:.3f} % of pixels off by more "
-        "than 1e-2\n",
-        name, shown.drawn, truth.relative_l2, truth.worst, 100 * truth.share_above);
-    EXPECT_LE(truth.relative_l2, c.most_relative_l2);
-    EXPECT_LE(truth.share_above, c.most_share_off);
+        "{}: {} flakes drawn; reference: {:.3f} % of pixels off by more than 1e-2, relative L2 of the others "
+        "{:.2e}\n",
+        name, shown.drawn, 100 * truth.share_above, truth.rest_relative_l2);
+    EXPECT_LE(truth.share_above, kMostShareOff);
+    EXPECT_LE(truth.rest_relative_l2, kMostRelativeL2);
 
     const std::string kept = testing::TempDir() + "spindrift-" + name;
     if (updating())
@@ -108,20 +99,23 @@ TEST_P(Golden, LooksAsItDid)
     {
         const image::Difference off =
             image::compare(shown.display, image::read_png(kPictures / (name + ".png")), kLevels);
-        EXPECT_LE(off.share_above, kShareOff) << "worst pixel: " << off.worst << " levels";
+        EXPECT_LE(off.share_above, kShareOff)
+            << "worst pixel: " << off.worst
+            << " levels; if the change is meant: SPINDRIFT_UPDATE_GOLDEN=1 test_golden";
     }
     if (!HasFailure()) return;
     image::write_png(kept + ".png", shown.display);
-    image::write_png(kept + "-reference.png", developed(shown.reference, 1));
+    image::write_png(kept + "-reference.png", developed(shown.reference, shown.exposure));
     ADD_FAILURE() << "see " << kept << ".png and " << kept << "-reference.png beside "
                   << (kPictures / (name + ".png")).string();
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Golden,
-                         testing::Values(Case{{"town"}, 2e-3, 2e-3}, Case{{"canyon"}, 2e-3, 2e-3},
-                                         Case{{"sheet"}, 2e-3, 2e-3}, Case{{"calm"}, 2e-3, 2e-3}),
-                         [](const testing::TestParamInfo<Case>& tested)
-                         { return tested.param.showing.name; });
+                         testing::Values(Showing{"town", 40'000, 320, 180, 1},
+                                         Showing{"canyon", 40'000, 320, 180, 8},
+                                         Showing{"sheet", 4'000, 320, 180, 4},
+                                         Showing{"calm", 4'000, 320, 180, 1}),
+                         [](const testing::TestParamInfo<Showing>& tested) { return tested.param.name; });
 
 }  // namespace
 }  // namespace spindrift::golden

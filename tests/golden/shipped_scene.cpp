@@ -35,10 +35,13 @@ Shown show(const Showing& showing)
     gl::Renderer renderer(scene, geometry, world, buffers, view.width_px, view.height_px);
     renderer.draw(gl::plan_frame(scene, view, stats, showing.time_s, geometry.model_lights), view, list,
                   showing.time_s);
-    return {renderer.read_linear(), renderer.read_display(),
+    return {renderer.read_linear(),
+            renderer.read_display(),
             reference::render(scene, geometry, world, buffers.flakes(), backend->slots_used(), view,
                               showing.time_s),
-            list.count, gl::Context::debug_errors()};
+            scene.render.exposure,
+            list.count,
+            gl::Context::debug_errors()};
 }
 
 }  // namespace spindrift::golden

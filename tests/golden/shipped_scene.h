@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <ostream>
 #include <string>
 
 #include "gl/flake_buffers.h"
@@ -21,11 +22,17 @@ struct Showing
     double time_s = 1;
 };
 
+inline void PrintTo(const Showing& showing, std::ostream* out)
+{
+    *out << showing.name;
+}
+
 struct Shown
 {
     image::Image linear;
     image::Image8 display;
     image::Image reference;  ///< the same frame by the reference renderer
+    double exposure = 1;
     std::uint64_t drawn = 0;
     std::string errors;  ///< what the driver complained of
 };

@@ -243,6 +243,7 @@ TEST(Compare, GivesKnownFigures)
     EXPECT_DOUBLE_EQ(off.worst, 0.5);
     EXPECT_DOUBLE_EQ(off.share_above, 0.01);
     EXPECT_NEAR(off.relative_l2, std::sqrt((0.25 + 0.0001) / 300), 1e-8);
+    EXPECT_NEAR(off.rest_relative_l2, std::sqrt(0.0001 / 300), 1e-8);
 
     Image8 c = grey(10, 10, 100);
     c.rgb[5] = 104;
