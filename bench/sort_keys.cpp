@@ -74,6 +74,17 @@ std::span<const std::uint64_t> PairSource::next_frame()
     return {pairs_.data(), count};
 }
 
+std::uint64_t PairSource::narrowed(std::uint64_t pair, int key_bits) const
+{
+    if (key_bits == 32) return pair;
+    const auto key = static_cast<std::uint32_t>(pair >> 32);
+    const std::uint64_t slot = pair & 0xffff'ffffU;
+    if (pattern_ != KeyPattern::camera_sweep) return std::uint64_t{key >> (32 - key_bits)} << 32 | slot;
+    const float nearness = std::max(0.0F, 1.0F - std::sqrt(std::bit_cast<float>(~key)) / kCloudWidth_m);
+    const auto buckets = static_cast<float>((1U << key_bits) - 1U);
+    return static_cast<std::uint64_t>(nearness * buckets) << 32 | slot;
+}
+
 // The camera walks 0.1 m and turns by 1 degree a frame round the middle of the cloud. A key is the inverted
 // bit pattern of the squared distance, so that far comes first; what lies behind the camera is culled.
 // Returns the number of pairs.

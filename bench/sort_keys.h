@@ -29,6 +29,9 @@ class PairSource
     /// The pairs of the next frame; only the camera sweep changes from frame to frame.
     std::span<const std::uint64_t> next_frame();
 
+    /// The same pair with a narrower key: the upper bits, or for the camera sweep linear buckets of distance.
+    std::uint64_t narrowed(std::uint64_t pair, int key_bits) const;
+
   private:
     std::size_t sweep_camera();
 

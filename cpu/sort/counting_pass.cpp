@@ -22,12 +22,8 @@ struct alignas(64) OwnLine  // so that threads do not write to one cache line
     std::uint64_t bits = 0;
 };
 
-// Returns the bits in which a pair of the run differs from `sample`.
-std::uint64_t count_run(const std::uint64_t* first, const std::uint64_t* last, std::uint64_t sample,
-                        Digit digit, std::uint32_t* histogram)
+void count_block(const std::uint64_t* first, const std::uint64_t* last, Digit digit, std::uint32_t* histogram)
 {
-    std::fill_n(histogram, digit.values(), 0U);
-    std::uint64_t differing = 0;
     for (; last - first >= 4; first += 4)
     {
         const std::uint64_t a = first[0], b = first[1], c = first[2], d = first[3];
@@ -35,12 +31,24 @@ std::uint64_t count_run(const std::uint64_t* first, const std::uint64_t* last, s
         ++histogram[digit.of(b)];
         ++histogram[digit.of(c)];
         ++histogram[digit.of(d)];
-        differing |= (a ^ sample) | (b ^ sample) | (c ^ sample) | (d ^ sample);
     }
-    for (; first != last; ++first)
+    for (; first != last; ++first) ++histogram[digit.of(*first)];
+}
+
+// Returns the bits in which a pair of the run differs from `sample`. Looked for in a loop of its own, which
+// vectorises, over blocks that are in the nearest cache when they are counted.
+std::uint64_t count_run(const std::uint64_t* first, const std::uint64_t* last, std::uint64_t sample,
+                        Digit digit, std::uint32_t* histogram)
+{
+    constexpr std::ptrdiff_t kBlock = 1024;
+    std::fill_n(histogram, digit.values(), 0U);
+    std::uint64_t differing = 0;
+    while (first != last)
     {
-        ++histogram[digit.of(*first)];
-        differing |= *first ^ sample;
+        const std::uint64_t* const end = first + std::min(kBlock, last - first);
+        for (const std::uint64_t* pair = first; pair != end; ++pair) differing |= *pair ^ sample;
+        count_block(first, end, digit, histogram);
+        first = end;
     }
     return differing;
 }
