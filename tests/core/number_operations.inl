@@ -95,7 +95,7 @@ SPINDRIFT_HD UInt lanes_back(const UInt& a)
 const float kTable[8] = {1, -2, 3.5F, -0.0F, 1e30F, 1e-40F, 7, 8};
 const std::uint8_t kBytes[12] = {1, 2, 255, 128, 5, 6, 7, 8, 0, 0, 0, 0};
 
-SPINDRIFT_HD UInt wind_noise(const UInt& id, const UInt& step_bits)
+[[gnu::noinline]] UInt wind_noise(const UInt& id, const UInt& step_bits)
 {
     const auto g =
         spindrift::gaussians<R>(spindrift::random_words(99, id, 17U, spindrift::RandomStream::turbulence, 2));
@@ -103,7 +103,7 @@ SPINDRIFT_HD UInt wind_noise(const UInt& id, const UInt& step_bits)
            step_bits;
 }
 
-SPINDRIFT_HD UInt start_place(const UInt& id, spindrift::EmitterShape shape)
+[[gnu::noinline]] UInt start_place(const UInt& id, spindrift::EmitterShape shape)
 {
     spindrift::Emitter emitter;
     emitter.shape = shape;
@@ -113,7 +113,7 @@ SPINDRIFT_HD UInt start_place(const UInt& id, spindrift::EmitterShape shape)
     return number_bits(p.x) ^ (number_bits(p.y) >> 1) ^ (number_bits(p.z) >> 2);
 }
 
-SPINDRIFT_HD UInt fall_speed(const UInt& id, spindrift::Crystal crystal)
+[[gnu::noinline]] UInt fall_speed(const UInt& id, spindrift::Crystal crystal)
 {
     spindrift::Snow snow;
     snow.crystal = crystal;
@@ -125,7 +125,7 @@ SPINDRIFT_HD UInt diameter(const UInt& id)
     return number_bits(spindrift::FlakeSizes({}, 3).diameter_m<R>(id));
 }
 
-SPINDRIFT_HD UInt free_way(const UInt& a, const UInt& b)
+[[gnu::noinline]] UInt free_way(const UInt& a, const UInt& b)
 {
     static const std::uint8_t clearance[8 + 3] = {2, 1, 1, 0, 3, 2, 2, 1, 0, 0, 0};
     spindrift::Solids solids;
