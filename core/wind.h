@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "core/math.h"
@@ -253,51 +254,78 @@ SPINDRIFT_HD Air<R> air_of_record(const R (&v)[16])
     return a;
 }
 
+/// Shares of the eight cells round a point: bit 0 of the index is the upper one along x, bit 1 y, bit 2 z.
 template <class R>
-SPINDRIFT_HD R lerp(const R& a, const R& b, const R& t)
+SPINDRIFT_HD void corner_weights(const GridPoint<R>& p, R (&weight)[8])
 {
-    return fma(t, b - a, a);
+    const R one = number<R>(1.0);
+    const R gx = one - p.fx;
+    const R gy = one - p.fy;
+    const R gz = one - p.fz;
+    const R y0z0 = gy * gz;
+    const R y1z0 = p.fy * gz;
+    const R y0z1 = gy * p.fz;
+    const R y1z1 = p.fy * p.fz;
+    weight[0] = gx * y0z0, weight[1] = p.fx * y0z0;
+    weight[2] = gx * y1z0, weight[3] = p.fx * y1z0;
+    weight[4] = gx * y0z1, weight[5] = p.fx * y0z1;
+    weight[6] = gx * y1z1, weight[7] = p.fx * y1z1;
 }
+
+/// Start of the eight records round a point.
+struct CellCorners
+{
+    const float* at[8];
+
+    SPINDRIFT_HD CellCorners(const GridWind& grid, std::int32_t index)
+    {
+        const WindCell* const lower = grid.cells + index;
+        at[0] = &lower->u;
+        at[2] = &lower[grid.step_y].u;
+        at[4] = &lower[grid.step_z].u;
+        at[6] = &lower[grid.step_z + grid.step_y].u;
+        const std::ptrdiff_t x = std::ptrdiff_t{grid.step_x} * 16;
+        for (int c = 0; c < 8; c += 2) at[c + 1] = at[c] + x;
+    }
+};
+
+// float and double; packs bring their own overloads (cpu/pack_grid.h), which read a record per load. The
+// terms are summed in the order of the corners everywhere.
 
 namespace detail
 {
 
-/// Trilinear mean of one number of the eight cells around a point, x first, then y, then z: the order
-/// that the packs keep too (cpu/pack_grid.h).
-template <class R>
-SPINDRIFT_HD R trilinear(const GridWind& grid, const float* lower, const GridPoint<R>& p)
+template <int Count, class R>
+SPINDRIFT_HD void interpolate_numbers(const GridWind& grid, const GridPoint<R>& p, R* numbers)
 {
-    const auto at = [&](int offset) { return static_cast<R>(lower[std::ptrdiff_t{offset} * 16]); };
-    const int sx = grid.step_x;
-    const int sy = grid.step_y;
-    const int sz = grid.step_z;
-    const R y0z0 = lerp(at(0), at(sx), p.fx);
-    const R y1z0 = lerp(at(sy), at(sy + sx), p.fx);
-    const R y0z1 = lerp(at(sz), at(sz + sx), p.fx);
-    const R y1z1 = lerp(at(sz + sy), at(sz + sy + sx), p.fx);
-    return lerp(lerp(y0z0, y1z0, p.fy), lerp(y0z1, y1z1, p.fy), p.fz);
+    R weight[8];
+    corner_weights(p, weight);
+    const CellCorners corner(grid, p.index);
+    for (int i = 0; i < Count; ++i)
+    {
+        R sum = weight[0] * static_cast<R>(corner.at[0][i]);
+        for (int c = 1; c < 8; ++c) sum = fma(weight[c], static_cast<R>(corner.at[c][i]), sum);
+        numbers[i] = sum;
+    }
 }
 
 }  // namespace detail
-
-// float and double; packs bring their own overloads, which read a record per load and transpose.
 
 template <class R>
 requires(NumberTraits<R>::width == 1) SPINDRIFT_HD Vec3<R> interpolate_mean(const GridWind& grid,
                                                                             const GridPoint<R>& p)
 {
-    const float* lower = &grid.cells[p.index].u;
-    return {detail::trilinear(grid, lower, p), detail::trilinear(grid, lower + 1, p),
-            detail::trilinear(grid, lower + 2, p)};
+    R v[3];
+    detail::interpolate_numbers<3>(grid, p, v);
+    return {v[0], v[1], v[2]};
 }
 
 template <class R>
 requires(NumberTraits<R>::width == 1) SPINDRIFT_HD Air<R> interpolate_air(const GridWind& grid,
                                                                           const GridPoint<R>& p)
 {
-    const float* lower = &grid.cells[p.index].u;
     R v[16];
-    for (int i = 0; i < 16; ++i) v[i] = detail::trilinear(grid, lower + i, p);
+    detail::interpolate_numbers<16>(grid, p, v);
     return air_of_record(v);
 }
 

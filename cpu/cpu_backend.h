@@ -14,8 +14,9 @@ namespace spindrift::cpu
 /// Which compiled variant of the kernels runs. All give the same bits.
 enum class Simd
 {
-    automatic,  ///< the widest that this processor has
-    scalar,
+    automatic,   ///< the widest that this processor has
+    scalar,      ///< for any x86-64; fused multiply-adds are calls
+    scalar_fma,  ///< one flake at a time, compiled for AVX2 with FMA: what the packs are measured against
     avx2,
     avx512,
 };
@@ -30,9 +31,9 @@ struct CpuOptions
     Simd simd = Simd::automatic;
 };
 
-/// The CPU implementation of Backend: TBB over chunks, SIMD inside. It works on memory that the caller owns and that must
-/// outlive it: `flakes` and `draw_list` with room for world.capacity elements in each array. Nothing is allocated per step.
-/// Throws Error if the asked variant cannot run here.
+/// The CPU implementation of Backend: TBB over chunks, SIMD inside. It works on memory that the caller owns
+/// and that must outlive it: `flakes` and `draw_list` with room for world.capacity elements in each array.
+/// Nothing is allocated per step. Throws Error if the asked variant cannot run here.
 std::unique_ptr<Backend> make_cpu_backend(const World& world, const FlakeView& flakes,
                                           const DrawListView& draw_list, const CpuOptions& options);
 

@@ -42,6 +42,7 @@ struct KernelTable
 };
 
 extern const KernelTable kScalarKernels;
+extern const KernelTable kScalarFmaKernels;
 extern const KernelTable kAvx2Kernels;
 extern const KernelTable kAvx512Kernels;
 

@@ -13,8 +13,10 @@ namespace
 
 constexpr std::size_t kWidth = NumberTraits<Real>::width;
 
-/// So many packs ahead of the one that moves, the wind cells round the flakes are called into the cache.
-constexpr std::size_t kPrefetchPacks = kWidth == 1 ? 4 : 1;
+/// So many flakes ahead of the ones that move, the wind cells round them are called into the second-level
+/// cache: straight into the first they stop up its few miss buffers, which took half as long again
+/// (docs/benchmarking.md, advection).
+constexpr std::size_t kPrefetchFlakes = 16;
 
 template <class WindField>
 SPINDRIFT_HD void prefetch(const WindField&, const FlakeView&, std::size_t, std::size_t)
@@ -33,8 +35,8 @@ SPINDRIFT_HD void prefetch(const GridWind& grid, const FlakeView& flakes, std::s
         {
             const WindCell* row =
                 grid.cells + index[l] + (corner & 1 ? grid.step_y : 0) + (corner & 2 ? grid.step_z : 0);
-            __builtin_prefetch(row);
-            __builtin_prefetch(row + grid.step_x);
+            __builtin_prefetch(row, 0, 2);
+            __builtin_prefetch(row + grid.step_x, 0, 2);
         }
 }
 
@@ -47,7 +49,7 @@ SPINDRIFT_HD void advect_in(const WindField& wind, const AdvectJob& job, std::si
     std::size_t i = first;
     for (; i + kWidth <= last; i += kWidth)
     {
-        prefetch(wind, job.flakes, i + kPrefetchPacks * kWidth, last);
+        prefetch(wind, job.flakes, i + kPrefetchFlakes, last);
         advector(i, tally);
     }
     const FlakeAdvector<float, WindField, Turbulent> rest{job.step, wind, job.fall_speed, job.around,

@@ -5,57 +5,23 @@
 #include "cpu/pack.h"
 
 // Interpolation in a wind grid for SIMD packs. A wind cell is one cache line, so a lane loads its eight
-// records whole and interpolates across their components; only the result is transposed to one pack per
-// component. The operations of each number are those of detail::trilinear (core/wind.h) in the same order:
-// the same bits. Gathers of single numbers took four times as long.
+// records whole and takes their weighted sum across the components; only the result is transposed to one pack
+// per component. The operations of each number are those of detail::interpolate_numbers (core/wind.h) in the
+// same order: the same bits. Gathers of single numbers took four times as long.
 
 namespace spindrift::cpu
 {
 
 #if defined(__AVX2__) && defined(__FMA__)
 
-SPINDRIFT_HD __m128 lerp_record(__m128 a, __m128 b, __m128 t)
+/// The first four numbers of a record: mean wind and gradient.
+SPINDRIFT_HD __m128 interpolate_quarter(const CellCorners& corner, const float* weight, std::size_t stride)
 {
-    return _mm_fmadd_ps(t, _mm_sub_ps(b, a), a);
-}
-
-SPINDRIFT_HD __m256 lerp_record(__m256 a, __m256 b, __m256 t)
-{
-    return _mm256_fmadd_ps(t, _mm256_sub_ps(b, a), a);
-}
-
-/// The first four numbers of the record at `cell`: mean wind and gradient.
-SPINDRIFT_HD __m128 interpolate_quarter(const GridWind& grid, const WindCell* cell, __m128 fx, __m128 fy,
-                                        __m128 fz)
-{
-    const auto at = [&](int offset) { return _mm_load_ps(&cell[offset].u); };
-    const int sx = grid.step_x;
-    const int sy = grid.step_y;
-    const int sz = grid.step_z;
-    const __m128 y0z0 = lerp_record(at(0), at(sx), fx);
-    const __m128 y1z0 = lerp_record(at(sy), at(sy + sx), fx);
-    const __m128 y0z1 = lerp_record(at(sz), at(sz + sx), fx);
-    const __m128 y1z1 = lerp_record(at(sz + sy), at(sz + sy + sx), fx);
-    return lerp_record(lerp_record(y0z0, y1z0, fy), lerp_record(y0z1, y1z1, fy), fz);
-}
-
-#endif
-
-#if defined(__AVX2__) && defined(__FMA__)
-
-/// Eight numbers of the record from `part` (0 or 8) on.
-SPINDRIFT_HD __m256 interpolate_half(const GridWind& grid, const WindCell* cell, int part, __m256 fx,
-                                     __m256 fy, __m256 fz)
-{
-    const auto at = [&](int offset) { return _mm256_load_ps(&cell[offset].u + part); };
-    const int sx = grid.step_x;
-    const int sy = grid.step_y;
-    const int sz = grid.step_z;
-    const __m256 y0z0 = lerp_record(at(0), at(sx), fx);
-    const __m256 y1z0 = lerp_record(at(sy), at(sy + sx), fx);
-    const __m256 y0z1 = lerp_record(at(sz), at(sz + sx), fx);
-    const __m256 y1z1 = lerp_record(at(sz + sy), at(sz + sy + sx), fx);
-    return lerp_record(lerp_record(y0z0, y1z0, fy), lerp_record(y0z1, y1z1, fy), fz);
+    __m128 sum = _mm_mul_ps(_mm_broadcast_ss(weight), _mm_load_ps(corner.at[0]));
+#pragma GCC unroll 8
+    for (std::size_t c = 1; c < 8; ++c)
+        sum = _mm_fmadd_ps(_mm_broadcast_ss(weight + c * stride), _mm_load_ps(corner.at[c]), sum);
+    return sum;
 }
 
 /// Rows to columns of an 8 x 8 matrix.
@@ -82,37 +48,44 @@ SPINDRIFT_HD void transpose(__m256 (&r)[8])
     }
 }
 
-/// Shares and indices of a GridPoint in memory, where lanes are broadcast from.
+/// Indices and weights of a pack of points in memory, where lanes are broadcast from.
 struct Avx2GridLanes
 {
     alignas(32) std::int32_t index[8];
-    alignas(32) float fx[8], fy[8], fz[8];
+    alignas(32) float weight[8][8];  ///< by corner and lane
 
     SPINDRIFT_HD explicit Avx2GridLanes(const GridPoint<Avx2Real>& p)
     {
         store(index, p.index);
-        store(fx, p.fx);
-        store(fy, p.fy);
-        store(fz, p.fz);
+        Avx2Real w[8];
+        corner_weights(p, w);
+        for (int c = 0; c < 8; ++c) store(weight[c], w[c]);
     }
 };
 
 SPINDRIFT_HD Air<Avx2Real> interpolate_air(const GridWind& grid, const GridPoint<Avx2Real>& p)
 {
     const Avx2GridLanes lanes(p);
-    Avx2Real numbers[16];
-#pragma GCC unroll 2
-    for (int part = 0; part < 16; part += 8)
-    {
-        __m256 rows[8];
+    __m256 low[8], high[8];  // numbers 0-7 and 8-15 of each lane
 #pragma GCC unroll 8
-        for (int l = 0; l < 8; ++l)
-            rows[l] =
-                interpolate_half(grid, grid.cells + lanes.index[l], part, _mm256_broadcast_ss(lanes.fx + l),
-                                 _mm256_broadcast_ss(lanes.fy + l), _mm256_broadcast_ss(lanes.fz + l));
-        transpose(rows);
-        for (int i = 0; i < 8; ++i) numbers[part + i] = Avx2Real(rows[i]);
+    for (int l = 0; l < 8; ++l)
+    {
+        const CellCorners corner(grid, lanes.index[l]);
+        const __m256 first = _mm256_broadcast_ss(&lanes.weight[0][l]);
+        low[l] = _mm256_mul_ps(first, _mm256_load_ps(corner.at[0]));
+        high[l] = _mm256_mul_ps(first, _mm256_load_ps(corner.at[0] + 8));
+#pragma GCC unroll 8
+        for (int c = 1; c < 8; ++c)
+        {
+            const __m256 weight = _mm256_broadcast_ss(&lanes.weight[c][l]);
+            low[l] = _mm256_fmadd_ps(weight, _mm256_load_ps(corner.at[c]), low[l]);
+            high[l] = _mm256_fmadd_ps(weight, _mm256_load_ps(corner.at[c] + 8), high[l]);
+        }
     }
+    transpose(low);
+    transpose(high);
+    Avx2Real numbers[16];
+    for (int i = 0; i < 8; ++i) numbers[i] = Avx2Real(low[i]), numbers[8 + i] = Avx2Real(high[i]);
     return air_of_record(numbers);
 }
 
@@ -123,8 +96,7 @@ SPINDRIFT_HD Vec3<Avx2Real> interpolate_mean(const GridWind& grid, const GridPoi
 #pragma GCC unroll 8
     for (int l = 0; l < 8; ++l)
         rows[l] = _mm256_castps128_ps256(
-            interpolate_quarter(grid, grid.cells + lanes.index[l], _mm_broadcast_ss(lanes.fx + l),
-                                _mm_broadcast_ss(lanes.fy + l), _mm_broadcast_ss(lanes.fz + l)));
+            interpolate_quarter(CellCorners(grid, lanes.index[l]), &lanes.weight[0][l], 8));
     transpose(rows);
     return {Avx2Real(rows[0]), Avx2Real(rows[1]), Avx2Real(rows[2])};
 }
@@ -132,26 +104,6 @@ SPINDRIFT_HD Vec3<Avx2Real> interpolate_mean(const GridWind& grid, const GridPoi
 #endif
 
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
-
-SPINDRIFT_HD __m512 lerp_record(__m512 a, __m512 b, __m512 t)
-{
-    return _mm512_fmadd_ps(t, _mm512_sub_ps(b, a), a);
-}
-
-/// All sixteen numbers of the record.
-SPINDRIFT_HD __m512 interpolate_record(const GridWind& grid, const WindCell* cell, __m512 fx, __m512 fy,
-                                       __m512 fz)
-{
-    const auto at = [&](int offset) { return _mm512_load_ps(&cell[offset].u); };
-    const int sx = grid.step_x;
-    const int sy = grid.step_y;
-    const int sz = grid.step_z;
-    const __m512 y0z0 = lerp_record(at(0), at(sx), fx);
-    const __m512 y1z0 = lerp_record(at(sy), at(sy + sx), fx);
-    const __m512 y0z1 = lerp_record(at(sz), at(sz + sx), fx);
-    const __m512 y1z1 = lerp_record(at(sz + sy), at(sz + sy + sx), fx);
-    return lerp_record(lerp_record(y0z0, y1z0, fy), lerp_record(y0z1, y1z1, fy), fz);
-}
 
 /// Rows to columns of a 16 x 16 matrix.
 SPINDRIFT_HD void transpose(__m512 (&r)[16])
@@ -187,14 +139,14 @@ SPINDRIFT_HD void transpose(__m512 (&r)[16])
 struct Avx512GridLanes
 {
     alignas(64) std::int32_t index[16];
-    alignas(64) float fx[16], fy[16], fz[16];
+    alignas(64) float weight[8][16];  ///< by corner and lane
 
     SPINDRIFT_HD explicit Avx512GridLanes(const GridPoint<Avx512Real>& p)
     {
         store(index, p.index);
-        store(fx, p.fx);
-        store(fy, p.fy);
-        store(fz, p.fz);
+        Avx512Real w[8];
+        corner_weights(p, w);
+        for (int c = 0; c < 8; ++c) store(weight[c], w[c]);
     }
 };
 
@@ -204,8 +156,14 @@ SPINDRIFT_HD Air<Avx512Real> interpolate_air(const GridWind& grid, const GridPoi
     __m512 rows[16];
 #pragma GCC unroll 16
     for (int l = 0; l < 16; ++l)
-        rows[l] = interpolate_record(grid, grid.cells + lanes.index[l], _mm512_set1_ps(lanes.fx[l]),
-                                     _mm512_set1_ps(lanes.fy[l]), _mm512_set1_ps(lanes.fz[l]));
+    {
+        const CellCorners corner(grid, lanes.index[l]);
+        rows[l] = _mm512_mul_ps(_mm512_set1_ps(lanes.weight[0][l]), _mm512_load_ps(corner.at[0]));
+#pragma GCC unroll 8
+        for (int c = 1; c < 8; ++c)
+            rows[l] =
+                _mm512_fmadd_ps(_mm512_set1_ps(lanes.weight[c][l]), _mm512_load_ps(corner.at[c]), rows[l]);
+    }
     transpose(rows);
     Avx512Real numbers[16];
     for (int i = 0; i < 16; ++i) numbers[i] = Avx512Real(rows[i]);
@@ -219,8 +177,7 @@ SPINDRIFT_HD Vec3<Avx512Real> interpolate_mean(const GridWind& grid, const GridP
 #pragma GCC unroll 16
     for (int l = 0; l < 16; ++l)
         rows[l] = _mm512_castps128_ps512(
-            interpolate_quarter(grid, grid.cells + lanes.index[l], _mm_broadcast_ss(lanes.fx + l),
-                                _mm_broadcast_ss(lanes.fy + l), _mm_broadcast_ss(lanes.fz + l)));
+            interpolate_quarter(CellCorners(grid, lanes.index[l]), &lanes.weight[0][l], 16));
     transpose(rows);
     return {Avx512Real(rows[0]), Avx512Real(rows[1]), Avx512Real(rows[2])};
 }

@@ -16,6 +16,7 @@ std::vector<Simd> available_simd()
     __builtin_cpu_init();
     if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
     {
+        all.push_back(Simd::scalar_fma);
         all.push_back(Simd::avx2);
         if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
             __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
@@ -32,6 +33,8 @@ std::string simd_name(Simd simd)
             return "automatic";
         case Simd::scalar:
             return "scalar";
+        case Simd::scalar_fma:
+            return "scalar-fma";
         case Simd::avx2:
             return "avx2";
         case Simd::avx512:
@@ -58,6 +61,8 @@ const KernelTable& kernels(Simd simd)
             return kAvx512Kernels;
         case Simd::avx2:
             return kAvx2Kernels;
+        case Simd::scalar_fma:
+            return kScalarFmaKernels;
         default:
             return kScalarKernels;
     }
