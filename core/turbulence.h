@@ -139,14 +139,36 @@ SPINDRIFT_HD Vec3<R> relaxation_rates(const StressRoot<R>& s, R c0_eps_m2_s3)
             min(half * (i31 * i31 + i32 * i32 + i33 * i33), largest)};
 }
 
-/// Neutral surface layer (Panofsky & Dutton 1984, as in QUIC): standard deviations over the friction
-/// velocity.
+// The neutral surface layer. f = u* (1 - d/zi)^(3/4) scales sigma = (2.5, 2.0, 1.3) f along, across and up,
+// u'w' = -f^2 along the wind (Panofsky & Dutton 1984, as in QUIC); C0 eps = 5.7 u*^3 / (kappa d) (1 - 0.85
+// d/zi)^(3/2). d: height above the ground, zi: depth of the boundary layer.
+
+inline constexpr double kVonKarman = 0.4;
 inline constexpr double kSigmaAlong = 2.5, kSigmaAcross = 2.0, kSigmaUp = 1.3;
 /// Kolmogorov constant C0 of the Lagrangian structure function, as QUIC and QES set it.
 inline constexpr double kKolmogorovC0 = 5.7;
 
-/// Diagonal (2.5, 2.0, 1.3)^2 along, across and above a wind that blows to the unit vector (to_x, to_y), for
-/// a friction velocity of 1; without the shear stress, which depends on which way the wind shears.
+/// What is left of the boundary layer above a height is never taken smaller than this share: the closure ends
+/// at zi, and its gradient is infinite there.
+inline constexpr double kLeastLayerShare = 0.02;
+
+/// (f / u*)^(4/3) at d/zi = part.
+template <class R>
+SPINDRIFT_HD R layer_share(const R& part)
+{
+    return max(number<R>(1.0) - part, number<R>(kLeastLayerShare));
+}
+
+/// (1 - 0.85 part)^(3/2), held above 0.
+template <class R>
+SPINDRIFT_HD R dissipation_decline(const R& part)
+{
+    const R decline = max(fma(number<R>(-0.85), part, number<R>(1.0)), number<R>(0.01));
+    return decline * sqrt(decline);
+}
+
+/// Stress without its shear, for f = 1 and a wind that blows to the unit vector (to_x, to_y): which way the
+/// air shears is for the caller to add (-to_x, -to_y over a plane).
 template <class R>
 SPINDRIFT_HD Stress<R> neutral_normal_stress(R to_x, R to_y)
 {
@@ -159,13 +181,12 @@ SPINDRIFT_HD Stress<R> neutral_normal_stress(R to_x, R to_y)
             R(kSigmaUp * kSigmaUp)};
 }
 
-/// C0 eps (m2/s3) of the neutral surface layer at a distance d (m) from the wall, without its decline to the
-/// top of the boundary layer.
+/// C0 eps (m2/s3) at a distance d (m) from the wall, without its decline to the top of the boundary layer.
 template <class R>
 SPINDRIFT_HD R neutral_dissipation(R friction_velocity_m_s, R distance_m)
 {
-    return R(kKolmogorovC0 / 0.4) * friction_velocity_m_s * friction_velocity_m_s * friction_velocity_m_s /
-           distance_m;
+    const R u = friction_velocity_m_s;
+    return R(kKolmogorovC0 / kVonKarman) * u * u * u / distance_m;
 }
 
 }  // namespace spindrift

@@ -6,6 +6,7 @@
 
 #include "core/math.h"
 #include "core/number.h"
+#include "core/turbulence.h"
 #include "core/vec.h"
 #include "core/world.h"
 
@@ -32,8 +33,6 @@ SPINDRIFT_HD Vec3<R> turbulent_velocity(const Air<R>& air, const Vec3<R>& q)
             fma(air.s33, q.z, fma(air.s32, q.y, air.s31 * q.x))};
 }
 
-inline constexpr double kVonKarman = 0.4;
-
 /// The neutral surface layer over a plane (docs/physics.md "Wind"): one matrix scaled by f(z) = u* (1 -
 /// d/zi)^(3/4), d the height above the ground. Made by surface_layer(); plain numbers, so that any thread may
 /// have a copy.
@@ -48,53 +47,25 @@ struct SurfaceLayer
     float largest_s = 0;
 };
 
-namespace detail
-{
-
-/// Share of the boundary layer that is left above a flake is never taken smaller than this: the closure
-/// ends at zi, and its gradient is infinite there.
-inline constexpr double kLeastLayerShare = 0.02;
-
-}  // namespace detail
-
-/// The closure of Wind: sigma = (2.5, 2.0, 1.3) f along, across and up, u'w' = -f^2 along the wind,
-/// C0 eps = 5.7 u*^3 / (kappa d) (1 - 0.85 d/zi)^1.5.
+/// The neutral surface layer of core/turbulence.h over the ground of Wind.
 inline SurfaceLayer surface_layer(const Wind& wind)
 {
     const double c = wind.to_x;
     const double s = wind.to_y;
-    const double along = 2.5 * 2.5;
-    const double across = 2.0 * 2.0;
-    const double up = 1.3 * 1.3;
-    const double xx = along * c * c + across * s * s;
-    const double xy = (along - across) * c * s;
-    const double yy = along * s * s + across * c * c;
-    const double l11 = sqrt(xx);
-    const double l21 = xy / l11;
-    const double l22 = sqrt(yy - l21 * l21);
-    const double l31 = -c / l11;
-    const double l32 = (-s - l31 * l21) / l22;
-    const double l33 = sqrt(up - l31 * l31 - l32 * l32);
-    // columns of the inverse; its row products are the diagonal of S^-1 S^-T
-    const double i11 = 1 / l11;
-    const double i22 = 1 / l22;
-    const double i33 = 1 / l33;
-    const double i21 = -l21 * i11 * i22;
-    const double i32 = -l32 * i22 * i33;
-    const double i31 = -(l31 * i11 + l32 * i21) * i33;
-    const double k = 5.7 / (2 * kVonKarman);
+    Stress<double> stress = neutral_normal_stress(c, s);
+    stress.xz = -c, stress.yz = -s;
+    const StressRoot<double> root = stress_root(stress);
+    const Vec3d rate = relaxation_rates(root, kKolmogorovC0 / kVonKarman);
     const auto f = [](double v) { return static_cast<float>(v); };
     SurfaceLayer layer;
     layer.friction_velocity_m_s = wind.friction_velocity_m_s;
     layer.ground_m = wind.ground_m;
     layer.inverse_boundary_layer_per_m = f(1.0 / static_cast<double>(wind.boundary_layer_m));
     layer.roughness_m = wind.roughness_m;
-    layer.s11 = f(l11), layer.s21 = f(l21), layer.s22 = f(l22);
-    layer.s31 = f(l31), layer.s32 = f(l32), layer.s33 = f(l33);
-    layer.rate1 = f(k * i11 * i11);
-    layer.rate2 = f(k * (i21 * i21 + i22 * i22));
-    layer.rate3 = f(k * (i31 * i31 + i32 * i32 + i33 * i33));
-    layer.largest_s = f(max(l11, max(abs(l22), l33)));
+    layer.s11 = f(root.s11), layer.s21 = f(root.s21), layer.s22 = f(root.s22);
+    layer.s31 = f(root.s31), layer.s32 = f(root.s32), layer.s33 = f(root.s33);
+    layer.rate1 = f(rate.x), layer.rate2 = f(rate.y), layer.rate3 = f(rate.z);
+    layer.largest_s = f(max(root.s11, max(abs(root.s22), root.s33)));
     return layer;
 }
 
@@ -102,17 +73,15 @@ inline SurfaceLayer surface_layer(const Wind& wind)
 template <class R>
 SPINDRIFT_HD void sample_surface_layer(const SurfaceLayer& layer, const R& z, Air<R>& air)
 {
-    const R one = number<R>(1.0);
     const R d = max(z - R(layer.ground_m), R(layer.roughness_m));
     const R part = d * R(layer.inverse_boundary_layer_per_m);
-    const R floor_share = number<R>(detail::kLeastLayerShare);
-    const R share = max(one - part, floor_share);
+    const R share = layer_share(part);
     const R root = sqrt(share);
     const R quarter = sqrt(root);
     const R f = R(layer.friction_velocity_m_s) * (root * quarter);
     // f' = -3/4 u* / zi share^(-1/4); nothing changes any more where the share stands at its floor
     const R slope = select(
-        share > floor_share,
+        share > number<R>(kLeastLayerShare),
         number<R>(-0.75) * R(layer.friction_velocity_m_s) * R(layer.inverse_boundary_layer_per_m) / quarter,
         number<R>(0.0));
     air.s11 = f * R(layer.s11);
@@ -122,8 +91,7 @@ SPINDRIFT_HD void sample_surface_layer(const SurfaceLayer& layer, const R& z, Ai
     air.s32 = f * R(layer.s32);
     air.s33 = f * R(layer.s33);
     air.div_s = {slope * R(layer.s31), slope * R(layer.s32), slope * R(layer.s33)};
-    const R decline = max(fma(number<R>(-0.85), part, one), number<R>(0.01));
-    const R scale = R(layer.friction_velocity_m_s) * (decline * sqrt(decline)) / (d * (share * root));
+    const R scale = R(layer.friction_velocity_m_s) * dissipation_decline(part) / (d * (share * root));
     air.rate = {scale * R(layer.rate1), scale * R(layer.rate2), scale * R(layer.rate3)};
     air.gradient = abs(slope) * R(layer.largest_s);
 }

@@ -153,9 +153,9 @@ void describe_wind(Section& section, WindSettings& wind, const DomainSettings& d
         wind.turbulence);
     const bool has_file = !wind.turbulence_file.empty();
     if (!given) wind.turbulence = wind.source == WindSource::logarithmic || has_file;
-    section.require(wind.source != WindSource::file || wind.turbulence == has_file, "turbulence",
+    section.require(wind.turbulence || !has_file || wind.source != WindSource::file, "turbulence",
                     "contradicts turbulence_file (the gusts of a wind file come from that file)",
-                    "give a turbulence_file and leave turbulence true, or neither");
+                    "leave out one of the two");
 }
 
 }  // namespace

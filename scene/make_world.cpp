@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/turbulence.h"
 #include "scene/height_field.h"
 #include "scene/project_wind.h"
 #include "scene/voxelise.h"
@@ -19,7 +20,6 @@ namespace spindrift::scene
 namespace
 {
 
-constexpr double kKappa = 0.4;  // von Karman's constant
 constexpr std::size_t kMostSurfaces = 256;
 
 Vec3f narrow(const Vec3d& v)
@@ -180,7 +180,7 @@ class Builder
         const double friction =
             settings.friction_velocity_m_s > 0
                 ? settings.friction_velocity_m_s
-                : kKappa * settings.speed_m_s / std::log((settings.reference_height_m + z0) / z0);
+                : kVonKarman * settings.speed_m_s / std::log((settings.reference_height_m + z0) / z0);
         wind.kind = WindKind::logarithmic;
         wind.friction_velocity_m_s = static_cast<float>(friction);
         wind.turbulent = settings.turbulence && friction > 0;
@@ -215,7 +215,7 @@ class Builder
         for (std::size_t i = flow.mean.size() - layer; i < flow.mean.size(); ++i)
             sum += std::hypot(static_cast<double>(flow.mean[i].x), static_cast<double>(flow.mean[i].y));
         const double height = (flow.size.nz - 0.5) * flow.cell_m.z, z0 = scene_.wind.roughness_m;
-        return kKappa * sum / static_cast<double>(layer) / std::log((height + z0) / z0);
+        return kVonKarman * sum / static_cast<double>(layer) / std::log((height + z0) / z0);
     }
 
     void add_emitter(const EmitterSettings& settings)

@@ -66,7 +66,8 @@ StaggeredWind wind_around_solids(const Wind& profile, Vec3f size_m, double cell_
     std::vector<double> speed(static_cast<std::size_t>(n.nz));
     const double z0 = profile.roughness_m;
     for (int k = 0; k < n.nz; ++k)
-        speed[k] = profile.friction_velocity_m_s / 0.4 * std::log(((k + 0.5) * wind.cell_m.z + z0) / z0);
+        speed[k] =
+            profile.friction_velocity_m_s / kVonKarman * std::log(((k + 0.5) * wind.cell_m.z + z0) / z0);
     for (int k = 0; k < n.nz; ++k)
     {
         const std::size_t u_layer = wind.u.size() / static_cast<std::size_t>(n.nz),

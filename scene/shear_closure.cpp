@@ -11,23 +11,8 @@ namespace spindrift::scene
 namespace
 {
 
-constexpr double kKappa = 0.4;  // von Karman's constant
 /// Largest local friction velocity over that of the undisturbed wind: (2.5 * 1.8)^2 = 20.
 constexpr double kMostFriction = 1.8;
-
-/// Shares of stress and dissipation that are left at a height of the boundary layer, as in the surface layer
-/// (docs/physics.md "Wind").
-struct Decline
-{
-    double stress, dissipation;
-
-    Decline(double height_m, double boundary_layer_m)
-    {
-        const double part = height_m / boundary_layer_m;
-        stress = std::pow(std::max(1 - part, 0.02), 1.5);
-        dissipation = std::pow(std::max(1 - 0.85 * part, 0.01), 1.5);
-    }
-};
 
 class Shear
 {
@@ -56,11 +41,12 @@ class Shear
         const double speed = std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
         const bool beside_wall = d < least_cell_;
         const double given =
-            beside_wall ? kKappa * speed / std::log((d + z0) / z0) : kKappa * (d + z0) * size;
+            beside_wall ? kVonKarman * speed / std::log((d + z0) / z0) : kVonKarman * (d + z0) * size;
         const double friction = std::min(given, kMostFriction * closure_.friction_velocity_m_s);
-        const Decline decline(height, closure_.boundary_layer_m);
-        flow_.stress[i] = stress(friction * friction * decline.stress, u[0], u[1], rate, size);
-        flow_.c0_eps[i] = static_cast<float>(neutral_dissipation(friction, d) * decline.dissipation);
+        const double part = height / closure_.boundary_layer_m;
+        const double left = layer_share(part);
+        flow_.stress[i] = stress(friction * friction * left * std::sqrt(left), u[0], u[1], rate, size);
+        flow_.c0_eps[i] = static_cast<float>(neutral_dissipation(friction, d) * dissipation_decline(part));
     }
 
   private:

@@ -117,6 +117,9 @@ TEST(ReadScene, WindsAndTheirDefaults)
     EXPECT_TRUE(file.wind.turbulence);
     EXPECT_EQ(file.wind.winds_file, "w.nc") << "relative to the scene's folder, resolved where it is opened";
     EXPECT_FALSE(parse(with("[wind]\nsource = \"file\"\nwinds_file = \"w.nc\"\n")).wind.turbulence);
+    EXPECT_TRUE(
+        parse(with("[wind]\nsource = \"file\"\nwinds_file = \"w.nc\"\nturbulence = true\n")).wind.turbulence)
+        << "gusts from the local shear";
 }
 
 TEST(ReadScene, LightsModelsVehicles)

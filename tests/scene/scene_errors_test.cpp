@@ -421,10 +421,10 @@ TEST(SceneErrors, Contradictions)
          "s.toml:12: wind.reference_height_m = 1 is not above roughness_m (the profile is 0 there); use a "
          "larger height or a "
          "smaller roughness_m"},
-        {with("[wind]\nsource = \"file\"\nwinds_file = \"a.nc\"\nturbulence = true\n"),
-         "s.toml:12: wind.turbulence = true contradicts turbulence_file (the gusts of a wind file come from "
-         "that file); give a "
-         "turbulence_file and leave turbulence true, or neither"},
+        {with("[wind]\nsource = \"file\"\nwinds_file = \"a.nc\"\nturbulence_file = \"b.nc\"\nturbulence = "
+              "false\n"),
+         "s.toml:13: wind.turbulence = false contradicts turbulence_file (the gusts of a wind file come from "
+         "that file); leave out one of the two"},
         {with("[ground]\nkind = \"none\"\ncontact = \"land\"\n"),
          "s.toml:11: ground.contact = \"land\" has no effect here (it counts only with kind = \"plane\" or "
          "\"height-field\"); "
