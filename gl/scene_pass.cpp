@@ -13,7 +13,6 @@ namespace
 {
 
 constexpr std::array<std::string_view, 2> kMeshFiles{"scene.vert", "scene.frag"};
-constexpr std::array<std::string_view, 2> kGroundFiles{"ground.vert", "scene.frag"};
 constexpr GLint kOffset = 0;
 constexpr GLint kAlbedo = 1;
 constexpr GLint kEmission = 2;
@@ -65,18 +64,10 @@ ScenePass::Body ScenePass::make_body(const scene::Scene& scene, const scene::Mes
 }
 
 ScenePass::ScenePass(const scene::Scene& scene, const scene::Geometry& geometry)
-    : program_(kMeshFiles),
-      ground_program_(kGroundFiles),
-      nothing_(make_vertex_array()),
-      domain_(scene.domain)
+    : program_(kMeshFiles), domain_(scene.domain)
 {
     for (const scene::Mesh& mesh : geometry.meshes)
         if (!mesh.vertices.empty()) bodies_.push_back(make_body(scene, mesh));
-    if (scene.ground.kind == scene::GroundKind::plane)
-    {
-        ground_ = scene::Material{.albedo = scene.ground.albedo};
-        ground_m_ = static_cast<float>(scene.ground.height_m - scene.domain.min_m.z);
-    }
 }
 
 void ScenePass::draw_bodies(GLuint program, double time_s) const
@@ -97,19 +88,9 @@ void ScenePass::draw_bodies(GLuint program, double time_s) const
     }
 }
 
-void ScenePass::draw_ground(GLuint program) const
-{
-    glUseProgram(program);
-    glProgramUniform3f(program, kOffset, 0, 0, ground_m_);
-    set_material(program, *ground_);
-    glBindVertexArray(nothing_.name());
-    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-}
-
 void ScenePass::draw(std::size_t lights, double time_s) const
 {
     if (!bodies_.empty()) draw_bodies(program_.for_lights(lights), time_s);
-    if (ground_) draw_ground(ground_program_.for_lights(lights));
 }
 
 }  // namespace spindrift::gl

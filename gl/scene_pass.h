@@ -12,7 +12,7 @@
 namespace spindrift::gl
 {
 
-/// Draws the solid things: meshes, those on vehicles at their place, and the ground plane to the far plane.
+/// Draws the solid things; meshes on vehicles at their place.
 class ScenePass
 {
   public:
@@ -34,15 +34,11 @@ class ScenePass
         std::optional<scene::VehicleSettings> vehicle;
     };
     void draw_bodies(GLuint program, double time_s) const;
-    void draw_ground(GLuint program) const;
     Body make_body(const scene::Scene& scene, const scene::Mesh& mesh) const;
 
-    LitProgram program_, ground_program_;
-    VertexArray nothing_;
+    LitProgram program_;
     std::vector<Body> bodies_;
     scene::DomainSettings domain_;
-    std::optional<scene::Material> ground_;
-    float ground_m_ = 0;
 };
 
 }  // namespace spindrift::gl

@@ -60,6 +60,8 @@ TEST_F(SceneDrawing, GroundReachesToTheFarPlane)
     scene.sky.ambient = {0.3F, 0.3F, 0.3F};
     scene.sky.horizon = scene.sky.zenith = {0, 9, 0};
     view.far_m = 100;
+    scene.camera.far_m = 100;
+    geometry = scene::read_geometry(scene);
     const image::Image image = draw();
     EXPECT_NEAR(image.pixel(48, 60)[0], 0.3, 1e-3);
     // Depth 100 m at 2 m below the eye: 64 * 2 / 100 = 1.28 px under the horizon.
@@ -79,6 +81,35 @@ TEST_F(SceneDrawing, FlakeBehindTheBoxIsHidden)
     EXPECT_EQ(total(draw()), 0);
     places[0].y = 4;
     EXPECT_GT(total(draw()), 0.1);
+}
+
+TEST_F(SceneDrawing, DroppingHiddenFlakesEarlyChangesNoPixel)
+{
+    scene.sky.ambient = {1, 1, 1};
+    add_box({-1, 5, -1}, {0.3F, 6, 0.7F}, grey(0.1F));
+    add_box({0.5F, 4, -3}, {0.55F, 4.1F, 3}, grey(0.1F));  // one pixel wide
+    std::uint32_t random = 7;
+    const auto unit = [&]
+    {
+        random = random * 1664525U + 1013904223U;
+        return static_cast<float>(random >> 8) / 16777216.0F;
+    };
+    scene.render.flake_scale = 4;
+    world.snow.weight = 16;
+    for (int i = 0; i < 3000; ++i)
+    {
+        const float depth = 12 - 4.0F * static_cast<float>(i) / 1000.0F - 0.1F * unit();
+        add_flake({depth * (1.5F * unit() - 0.75F), depth, depth * (unit() - 0.5F)},
+                  static_cast<std::uint32_t>(i));
+    }
+    // Far, sorted flakes go through the shader that drops; unsorted ones through the one that leaves all to
+    // the depth test.
+    scene.render.blending = scene::Blending::additive;
+    const image::Image dropped = draw();
+    sorted = false;
+    const image::Image kept = draw();
+    EXPECT_GT(total(kept), 100);
+    for (std::size_t i = 0; i < kept.rgba.size(); ++i) ASSERT_NEAR(dropped.rgba[i], kept.rgba[i], 0.01) << i;
 }
 
 TEST_F(SceneDrawing, FlakeFadesWhereItCutsIntoTheScene)
@@ -177,6 +208,7 @@ TEST_F(SceneDrawing, ManyFlakesRoundAStreetLamp)
     view.height_px = 360;
     view.eye = {0, 0, 1.7F};
     scene.ground.kind = scene::GroundKind::plane;
+    geometry = scene::read_geometry(scene);
     scene.sky = {{0.02F, 0.02F, 0.04F}, {0.06F, 0.05F, 0.06F}, {0.03F, 0.03F, 0.04F}};
     scene.lights = {point_light({1, 9, 5}, 60)};
     scene.lights[0].intensity = {80, 50, 18};
