@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 
-#include "bench/pinned_threads.h"
 #include "bench/report_table.h"
 #include "core/error.h"
 
@@ -30,7 +29,6 @@ int main(int argc, char** argv)
     }
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-    const spindrift::bench::PinnedThreads pinned;
     benchmark::AddCustomContext("threads", std::to_string(tbb::this_task_arena::max_concurrency()));
     benchmark::RunSpecifiedBenchmarks();
     benchmark::Shutdown();

@@ -65,6 +65,11 @@ void PinnedThreads::on_scheduler_entry(bool is_worker)
     if (is_worker) pin_this_thread(tbb::this_task_arena::current_thread_index());
 }
 
+void PinnedThreads::on_scheduler_exit(bool is_worker)
+{
+    if (is_worker) free_this_thread();
+}
+
 AnyCore::AnyCore()
 {
     free_this_thread();

@@ -6,8 +6,8 @@
 namespace spindrift::bench
 {
 
-/// While it lives, each thread of TBB stays on a core of its own, the calling thread on the first, so that a
-/// busy machine does not put two threads of one measurement on the same core.
+/// While it lives, each thread of TBB that works stays on a core of its own, the calling thread on the first,
+/// so that a busy machine does not put two threads of one measurement on the same core.
 class PinnedThreads : private tbb::task_scheduler_observer
 {
   public:
@@ -18,6 +18,7 @@ class PinnedThreads : private tbb::task_scheduler_observer
 
   private:
     void on_scheduler_entry(bool is_worker) override;
+    void on_scheduler_exit(bool is_worker) override;
 };
 
 /// While it lives, the calling thread and threads that it starts may use every core that the process had at

@@ -114,6 +114,7 @@ class Comparison
         constexpr std::size_t kFewestRounds = 5;
         constexpr std::size_t kMostRounds = 101;
         constexpr double kEnough_ms = 300;  // for one contender
+        const PinnedThreads pinned;
         std::vector<double> spent_ms(contenders_.size());
         for (std::size_t round = 0; round < kMostRounds; ++round)
         {
