@@ -24,10 +24,10 @@ struct SimulationOptions
 {
     int threads = 0;            ///< 0: one per core that this process may use
     std::string simd = "auto";  ///< auto, scalar, avx2, avx512: the results are the same
-    std::optional<std::uint64_t>
-        particles;  ///< capacity instead of the scene's; bursts and rates are scaled with it
-    std::optional<std::uint64_t> seed;       ///< instead of the scene's
-    std::optional<int> width_px, height_px;  ///< of the picture, instead of the scene's
+    /// Capacity instead of the scene's; bursts and rates are scaled with it.
+    std::optional<std::uint64_t> particles = {};
+    std::optional<std::uint64_t> seed = {};            ///< instead of the scene's
+    std::optional<int> width_px = {}, height_px = {};  ///< of the picture, instead of the scene's
     Pictures pictures = Pictures::off;
 };
 
