@@ -40,7 +40,8 @@ Examples:
   spindrift run sheet --headless --steps 300 --save-snapshot s.snap
   spindrift run sheet --headless --load-snapshot s.snap --out later.png --frames 1
 
-In the window: see the keys at its lower border; F1 shows and hides them.
+In the window: W A S D Q E move, Shift is fast, right drag looks, left drag orbits, the wheel sets speed or distance,
+C is the scene's camera, Space pauses, N steps, T takes the next sort, F1 hides the overlay, Esc quits.
 )";
 
 /// "1280x720"

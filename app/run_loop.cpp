@@ -86,9 +86,6 @@ void simulate_only(RunState& run)
     conclude(run, *simulator);
 }
 
-namespace
-{
-
 void warm_up(RunState& run, Simulator& simulator, std::uint64_t end)
 {
     const std::uint64_t first = simulator.backend().step_number();
@@ -98,6 +95,9 @@ void warm_up(RunState& run, Simulator& simulator, std::uint64_t end)
         end, [&] { return run.interrupt.requested(); },
         [&] { bar.show(simulator.backend().step_number() - first); });
 }
+
+namespace
+{
 
 void draw_frames(RunState& run, Simulator& simulator, FrameDrawer& drawer, const FrameClock& clock,
                  Outputs& outputs)

@@ -46,6 +46,9 @@ FrameClock make_clock(const RunInput& input, std::uint64_t steps_done);
 /// Moves on until `steps` are complete, unless a signal asks for the end. True: arrived.
 bool advance(RunState& run, Simulator& simulator, std::uint64_t steps);
 
+/// The same with a progress bar, before the first frame.
+void warm_up(RunState& run, Simulator& simulator, std::uint64_t steps);
+
 /// Counts, hash and snapshot of the end of a run, into the report.
 void conclude(RunState& run, Simulator& simulator);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -15,6 +16,21 @@ namespace spindrift::app
 namespace
 {
 
+/// What a scene says of itself that is whole but for the wind file, which the command line must name.
+std::optional<std::string> about_without_wind(const std::filesystem::path& file)
+{
+    scene::SceneOverrides overrides;
+    overrides.winds_file = file;  // any file that exists: it is not read
+    try
+    {
+        return scene::read_scene(file, overrides).about;
+    }
+    catch (const Error&)
+    {
+        return std::nullopt;
+    }
+}
+
 /// What a scene says of itself, or what is wrong with it.
 std::string about(const std::filesystem::path& file)
 {
@@ -24,6 +40,7 @@ std::string about(const std::filesystem::path& file)
     }
     catch (const Error& e)
     {
+        if (const auto windless = about_without_wind(file)) return *windless + " Needs --wind FILE.";
         return fmt::format("(cannot be run: {})", e.what());
     }
 }
