@@ -63,6 +63,15 @@ void DrawnScene::draw()
     glFinish();
 }
 
+void DrawnScene::draw_pass(std::string_view name)
+{
+    gl::FramePlan alone = plan_;
+    for (gl::PlannedPass& pass : alone.passes)
+        pass.runs = pass.runs && (pass.name == name || pass.name == "lights");
+    renderer_->draw(alone, view_, list_, time_s_);
+    glFinish();
+}
+
 std::vector<BarePoint> DrawnScene::points() const
 {
     const FlakeView flakes = buffers_->flakes();

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/bare_points.h"
@@ -30,6 +31,8 @@ class DrawnScene
     void prepare();
     /// Every pass of the frame plan, until the picture is there.
     void draw();
+    /// One pass of the frame plan alone, over what the last draw() left, until it is there.
+    void draw_pass(std::string_view name);
     /// The picture in 8 bit, on the host.
     image::Image8 display() const { return renderer_->read_display(); }
 

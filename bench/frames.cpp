@@ -21,6 +21,7 @@ namespace
 
 constexpr int kWarmUpFrames = 5;
 constexpr int kFrames = 30;
+constexpr std::array kPasses{"scene", "sky", "fade", "flakes", "tone"};
 
 struct Row
 {
@@ -39,6 +40,7 @@ std::string row_name(const char* what, const Row& row)
 struct FrameTimes
 {
     std::vector<double> whole, steps, prepare, draw, bare, read;
+    std::array<std::vector<double>, kPasses.size()> passes;  ///< each alone
 };
 
 FrameTimes measure_frames(DrawnScene& scene, BarePoints& bare)
@@ -54,6 +56,9 @@ FrameTimes measure_frames(DrawnScene& scene, BarePoints& bare)
         const double prepare = time_ms([&] { scene.prepare(); });
         const double draw = time_ms([&] { scene.draw(); });
         const double read = time_ms([&] { benchmark::DoNotOptimize(scene.display().rgb.data()); });
+        std::array<double, kPasses.size()> passes{};
+        for (std::size_t i = 0; i < kPasses.size(); ++i)
+            passes[i] = time_ms([&] { scene.draw_pass(kPasses[i]); });
         bare.upload(scene.points());
         const double alone = time_ms([&] { bare.draw(); });
         if (frame < 0) continue;
@@ -63,6 +68,7 @@ FrameTimes measure_frames(DrawnScene& scene, BarePoints& bare)
         times.draw.push_back(draw);
         times.read.push_back(read);
         times.bare.push_back(alone);
+        for (std::size_t i = 0; i < kPasses.size(); ++i) times.passes[i].push_back(passes[i]);
     }
     return times;
 }
@@ -79,6 +85,8 @@ void whole_frame(benchmark::State& state, const Row& row)
     state.counters["steps_ms"] = quantile(times.steps, 0.5);
     state.counters["prepare_ms"] = quantile(times.prepare, 0.5);
     state.counters["draw_ms"] = quantile(times.draw, 0.5);
+    for (std::size_t i = 0; i < kPasses.size(); ++i)
+        state.counters[std::string(kPasses[i]) + "_ms"] = quantile(times.passes[i], 0.5);
     state.counters["read_ms"] = quantile(times.read, 0.5);
     state.counters["p95_ms"] = quantile(times.whole, 0.95);
     state.counters["drawn"] = static_cast<double>(scene.drawn());
