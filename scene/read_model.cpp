@@ -15,6 +15,7 @@
 #include "scene/gltf_check.h"
 #include "scene/mesh.h"
 #include "scene/placement.h"
+#include "scene/try_in_child.h"
 
 namespace spindrift::scene
 {
@@ -26,6 +27,7 @@ namespace
 constexpr double kLargestModel_m = 1e6;
 constexpr std::size_t kMostVertices = std::size_t{1} << 26;
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{2} << 30;
+constexpr unsigned kLongestRead_s = 600;
 
 /// Lets a model file open only plain files in its own folder and below: a buffer's name may say anything.
 class FolderOnly final : public Assimp::DefaultIOSystem
@@ -358,6 +360,15 @@ Mesh read_model(const Scene& scene, const ModelSettings& settings, std::vector<L
     const std::filesystem::path file = absolute_file(scene, settings);
     check_file(file);
     const std::vector<float> strengths = check_gltf(file);
+    const auto try_import = [&]
+    {
+        Assimp::Importer tried;
+        import(tried, file);
+    };
+    if (try_in_child(try_import, kLongestRead_s) != ChildFate::returned)
+        throw Error(
+            fmt::format("{} cannot be read as a model: broken so that the reader of its format fails on it",
+                        file.string()));
     Assimp::Importer importer;
     const aiScene& model = import(importer, file);
 

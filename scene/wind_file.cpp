@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "scene/netcdf_file.h"
+#include "scene/try_in_child.h"
 
 namespace spindrift::scene
 {
@@ -219,9 +220,10 @@ void read_turbulence(const NetcdfFile& file, const Frame& frame, WindFile& out)
     read("CoEps", [&](std::size_t i, float v) { out.c0_eps[i] = std::max(v, 0.0F); });
 }
 
-}  // namespace
+/// Reading takes seconds at most; a broken file may send HDF5 round in circles.
+constexpr unsigned kLongestRead_s = 300;
 
-WindFile read_wind_file(const std::filesystem::path& winds, const std::filesystem::path& turbulence)
+WindFile read_both(const std::filesystem::path& winds, const std::filesystem::path& turbulence)
 {
     const NetcdfFile file(winds);
     const Frame frame = read_frame(file);
@@ -229,6 +231,17 @@ WindFile read_wind_file(const std::filesystem::path& winds, const std::filesyste
     result.wind = read_winds(file, frame);
     if (!turbulence.empty()) read_turbulence(NetcdfFile(turbulence), frame, result);
     return result;
+}
+
+}  // namespace
+
+WindFile read_wind_file(const std::filesystem::path& winds, const std::filesystem::path& turbulence)
+{
+    if (try_in_child([&] { read_both(winds, turbulence); }, kLongestRead_s) != ChildFate::returned)
+        throw Error(fmt::format(
+            "{}{}{} cannot be read: broken so that the NetCDF library fails on it; write it again",
+            winds.string(), turbulence.empty() ? "" : " or ", turbulence.string()));
+    return read_both(winds, turbulence);
 }
 
 }  // namespace spindrift::scene

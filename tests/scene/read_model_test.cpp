@@ -242,7 +242,7 @@ TEST(ReadModel, RefusesGltfThatIsCutOffAnywhere)
     const TemporaryFolder folder;
     const std::string text = read_bytes(kModels / "lamp.gltf"), binary = glb();
     for (std::size_t length = 1; length + 2 < text.size();
-         length += 1 + text.size() / 150)  // its last byte is a line end
+         length += 1 + text.size() / 60)  // its last byte is a line end
         EXPECT_NE(error_of(folder.write("cut.gltf", text.substr(0, length))), "") << length;
     for (std::size_t length = 1; length < binary.size(); length += 7)
         EXPECT_NE(error_of(folder.write("cut.glb", binary.substr(0, length))), "") << length;
@@ -256,7 +256,7 @@ TEST(ReadModel, SurvivesAnyByteThatIsWrong)
     sound["x.obj"] = std::string(kTriangle) + "usemtl a\nvn 0 0 1\nf 1//1 2//1 3//1\n";
     int refused = 0;
     for (const auto& [name, bytes] : sound)
-        for (std::uint32_t trial = 0; trial < 250; ++trial)
+        for (std::uint32_t trial = 0; trial < 60; ++trial)
         {
             std::string broken = bytes;
             const Philox4<std::uint32_t> draw = philox<std::uint32_t>(7, {trial, 1, 2, 3});
@@ -266,7 +266,7 @@ TEST(ReadModel, SurvivesAnyByteThatIsWrong)
             refused +=
                 error_of(folder.write(name, broken)).empty() ? 0 : 1;  // whatever it says, it comes back
         }
-    EXPECT_GT(refused, 100);
+    EXPECT_GT(refused, 30);
 }
 
 TEST(ReadModel, RefusesGltfThatPointsOutOfItself)

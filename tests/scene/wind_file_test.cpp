@@ -10,6 +10,7 @@
 #include <map>
 
 #include "core/error.h"
+#include "core/philox.h"
 #include "tests/scene/temporary_folder.h"
 
 namespace spindrift::scene
@@ -243,6 +244,29 @@ TEST_F(WindFileTest, RefusesWhatIsNoWindFile)
         EXPECT_THROW(read_wind_file(folder.write("cut.nc", bytes.substr(0, bytes.size() * part / 20)), {}),
                      Error)
             << part;
+}
+
+TEST_F(WindFileTest, SurvivesAnyByteThatIsWrong)
+{
+    SmallWind{}.write_winds(folder / "w.nc");
+    const std::string sound = read_bytes(folder / "w.nc");
+    int refused = 0;
+    for (std::uint32_t trial = 0; trial < 60; ++trial)
+    {
+        std::string broken = sound;
+        const Philox4<std::uint32_t> draw = philox<std::uint32_t>(9, {trial, 1, 2, 3});
+        for (std::uint32_t flips = 0; flips <= draw.x2 % 4; ++flips)
+            broken[(draw.x0 + flips * draw.x3) % broken.size()] = static_cast<char>(draw.x1 >> (8 * flips));
+        try
+        {
+            read_wind_file(folder.write("broken.nc", broken), {});
+        }
+        catch (const Error&)
+        {
+            ++refused;
+        }
+    }
+    EXPECT_GT(refused, 5);  // the library itself dies on some of these files
 }
 
 TEST(RealWindFile, IsFreeOfDivergenceAfterwards)
