@@ -16,6 +16,8 @@ namespace
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t kLeafTriangles = 4;
+/// Barycentric; no ray slips through between two triangles by rounding.
+constexpr double kSlack = 1e-12;
 
 Vec3d unit(const Vec3d& v)
 {
@@ -155,7 +157,7 @@ bool RayScene::first_hit(const Vec3d& origin, const Vec3d& direction, double fro
             const Vec3d q = cross(s, triangle.edge1);
             const double v = dot(direction, q) / determinant;
             const double along = dot(triangle.edge2, q) / determinant;
-            if (u < 0 || v < 0 || u + v > 1 || along < from || along > to) continue;
+            if (u < -kSlack || v < -kSlack || u + v > 1 + kSlack || along < from || along > to) continue;
             to = along;
             best = &triangle;
             best_u = u;

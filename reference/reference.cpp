@@ -41,21 +41,6 @@ Rgb sky_radiance(const scene::SkySettings& sky, const Vec3d& direction)
     return rgb(sky.horizon) * (1 - up) + rgb(sky.zenith) * up;
 }
 
-/// The ground plane goes on to the far plane, further than any mesh of it.
-bool ground_hit(const scene::Scene& scene, const Vec3d& eye, const Vec3d& direction, double from, double to,
-                Hit& hit)
-{
-    if (scene.ground.kind != scene::GroundKind::plane) return false;
-    const double height = scene.ground.height_m - scene.domain.min_m.z;
-    const double along = (height - eye.z) / direction.z;
-    if (!(along >= from && along <= to)) return false;
-    hit.along = along;
-    hit.normal = {0, 0, direction.z < 0 ? 1.0 : -1.0};
-    hit.material = scene::Material{};
-    hit.material.albedo = scene.ground.albedo;
-    return true;
-}
-
 Canvas empty_canvas(const Frame& frame, int x, int y)
 {
     const View& view = frame.view;
@@ -66,13 +51,7 @@ Canvas empty_canvas(const Frame& frame, int x, int y)
                             wide(view.up) * ((0.5 * view.height_px - y - 0.5) / focal_px);
     const Vec3d eye = wide(view.eye);
     Hit hit;
-    bool met = frame.solids.first_hit(eye, direction, view.near_m, view.far_m, hit);
-    Hit ground;
-    if (ground_hit(frame.scene, eye, direction, view.near_m, met ? hit.along : view.far_m, ground))
-    {
-        hit = ground;
-        met = true;
-    }
+    const bool met = frame.solids.first_hit(eye, direction, view.near_m, view.far_m, hit);
     if (!met) return {sky_radiance(frame.scene.sky, direction), std::numeric_limits<double>::infinity()};
     return {surface_radiance(frame.lights, frame.scene.sky, hit, eye + direction * hit.along), hit.along};
 }

@@ -63,7 +63,7 @@ TEST(Reference, SkyRunsFromHorizonToZenith)
 TEST(Reference, GroundShowsItsAlbedoInAmbientLight)
 {
     SmallScene small = empty_scene();
-    small.scene.ground.kind = scene::GroundKind::plane;
+    add_ground(small);
     const image::Image picture = draw(small);
     EXPECT_NEAR(picture.pixel(80, 110)[1], small.scene.ground.albedo.g * small.scene.sky.ambient.g, 1e-6);
     EXPECT_NEAR(picture.pixel(80, 10)[3], 1, 0);
@@ -72,7 +72,7 @@ TEST(Reference, GroundShowsItsAlbedoInAmbientLight)
 TEST(Reference, SurfaceUnderALampIsLambertian)
 {
     SmallScene small = empty_scene();
-    small.scene.ground.kind = scene::GroundKind::plane;
+    add_ground(small);
     small.scene.sky.ambient = {0, 0, 0};
     scene::Light lamp;
     lamp.kind = scene::LightKind::point;

@@ -72,11 +72,21 @@ SmallScene empty_scene()
     return small;
 }
 
+void add_ground(SmallScene& small)
+{
+    small.scene.ground.kind = scene::GroundKind::plane;
+    small.world.has_ground = true;
+    scene::Mesh ground;
+    ground.materials.push_back({small.scene.ground.albedo, {0, 0, 0}, 1, 0});
+    ground.parts.push_back({0, {}});
+    add_face(ground, {-500, -500, 0}, {1000, 0, 0}, {0, 1000, 0}, {0, 0, 1});
+    small.geometry.meshes.push_back(ground);
+}
+
 SmallScene flakes_by_a_wall(int count)
 {
     SmallScene small = empty_scene();
-    small.scene.ground.kind = scene::GroundKind::plane;
-    small.world.has_ground = true;
+    add_ground(small);
     small.geometry.meshes.push_back(wall({10, 15, 0}, {18, 16, 8}));
     scene::BoxSettings box;
     box.min_m = {10, 15, 0};

@@ -40,6 +40,9 @@ struct SmallScene
 /// 160x120, sky only, no ground, no light but the ambient one, no flakes.
 SmallScene empty_scene();
 
+/// Ground at 0, in the colour of the scene's settings.
+void add_ground(SmallScene& small);
+
 /// Ground, a wall that hides a part of the flakes, `count` flakes over a field from 1 m to 30 m away.
 SmallScene flakes_by_a_wall(int count);
 
