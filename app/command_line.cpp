@@ -110,7 +110,7 @@ void add_scene_options(CLI::App& command, scene::SceneOverrides& scene)
         ->group(group);
     command.add_option("--frames", scene.frames, "Frames to draw")
         ->type_name("N")
-        ->check(CLI::Range(1, 100000000))
+        ->check(CLI::Range(1, 10000000))
         ->group(group);
     command
         .add_option_function<double>(

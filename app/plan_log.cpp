@@ -9,14 +9,18 @@ namespace spindrift::app
 namespace
 {
 
-/// Reasons that carry changing numbers could grow without end.
-constexpr std::size_t kMostReasons = 8;
+/// The words of a reason: numbers in it may change from frame to frame.
+std::string without_digits(std::string text)
+{
+    std::erase_if(text, [](char c) { return c >= '0' && c <= '9'; });
+    return text;
+}
 
 void note(std::vector<std::string>& reasons, const std::string& reason)
 {
-    if (reasons.size() >= kMostReasons || std::find(reasons.begin(), reasons.end(), reason) != reasons.end())
-        return;
-    reasons.push_back(reason);
+    const auto same = [&](const std::string& known)
+    { return without_digits(known) == without_digits(reason); };
+    if (std::none_of(reasons.begin(), reasons.end(), same)) reasons.push_back(reason);
 }
 
 }  // namespace

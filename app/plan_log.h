@@ -15,7 +15,7 @@ struct PassHistory
 {
     std::string name;
     std::uint64_t ran = 0, skipped = 0;
-    std::vector<std::string> ran_because, skipped_because;  ///< each reason once
+    std::vector<std::string> ran_because, skipped_because;  ///< each reason once, whatever its numbers
 };
 
 class PlanLog

@@ -62,12 +62,19 @@ Pipe make_pipe(bool terminal)
     _exit(127);
 }
 
-/// Gives up after a minute; the test then sees a run that was not interrupted or a file that is not there.
+bool has_ended(pid_t child)
+{
+    siginfo_t info = {};
+    return waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+           info.si_pid != 0;
+}
+
+/// Sends SIGINT when the file is there, or after two minutes; not to a command that has ended before.
 void interrupt_when(const std::filesystem::path& file, pid_t child)
 {
     constexpr useconds_t kPoll_us = 10000;
-    for (int i = 0; i < 6000 && !std::filesystem::exists(file); ++i) usleep(kPoll_us);
-    kill(child, SIGINT);
+    for (int i = 0; i < 12000 && !std::filesystem::exists(file) && !has_ended(child); ++i) usleep(kPoll_us);
+    if (!has_ended(child)) kill(child, SIGINT);
 }
 
 /// Reads both ends until both are closed. A pseudo terminal answers EIO when its other side is gone.

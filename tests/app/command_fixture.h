@@ -81,7 +81,7 @@ rate_per_s = 700.5
 min_m = [15, 15, 0]
 max_m = [22, 24, 9]
 [voxels]
-cell_m = 1
+size_m = 1
 [camera]
 [[camera.key]]
 time_s = 0

@@ -200,15 +200,22 @@ TEST_F(Command, UnwritableFilesAreFoundBeforeSimulating)
 {
     const std::string scene = small_scene();
     std::filesystem::create_directory(in_folder("folder.json"));
-    // Steps without end: were the file tried last, the test would not come back.
-    for (const char* option : {"--stats", "--save-snapshot"})
-        for (const std::string& file : {in_folder("folder.json"), std::string("/proc/none/x.json")})
-            expect_one_clear_line(
-                run_command({"run", scene, "--headless", "--steps", "1000000000", option, file}));
+    std::filesystem::create_directory(in_folder("folder.png"));
+    // So many steps that the test would not come back if the file were tried last.
+    const auto refuses = [&](const char* option, const std::string& file, const char* count, const char* n)
+    {
+        const Finished run = run_command({"run", scene, "--headless", count, n, option, file});
+        expect_one_clear_line(run);
+        EXPECT_THAT(run.error, HasSubstr(file)) << option;
+    };
+    for (const std::string& file : {in_folder("folder.json"), std::string("/proc/none/x.json")})
+    {
+        refuses("--stats", file, "--steps", "1000000000");
+        refuses("--save-snapshot", file, "--steps", "1000000000");
+    }
     for (const std::string& file :
-         {in_folder("folder.json"), in_folder("x.gif"), std::string("/proc/none/x.png")})
-        expect_one_clear_line(
-            run_command({"run", scene, "--headless", "--frames", "100000000", "--out", file}));
+         {in_folder("folder.png"), in_folder("x.gif"), std::string("/proc/none/x.png")})
+        refuses("--out", file, "--frames", "10000000");
 }
 
 TEST_F(Command, FullDiskIsAnError)
@@ -223,7 +230,9 @@ TEST_F(Command, FullDiskIsAnError)
     limited.arguments = {"run", small_scene(), "--headless", "--steps", "3", "--save-snapshot", snapshot};
     limited.largest_file_bytes = 100000;
     const std::size_t before = files();
-    expect_one_clear_line(run_command(limited));
+    const Finished full = run_command(limited);
+    expect_one_clear_line(full);
+    EXPECT_THAT(full.error, HasSubstr("s.snap"));
     EXPECT_EQ(files(), before) << "something was left behind";
 }
 

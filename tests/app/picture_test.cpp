@@ -95,8 +95,8 @@ TEST_F(Drawing, ExactSortsGiveTheSamePicture)
 TEST_F(Drawing, InterruptLeavesWholeFiles)
 {
     Launch launch;
-    launch.arguments = {"run",       small_scene(), "--headless",       "--frames",
-                        "100000000", "--stats",     in_folder("s.json")};
+    launch.arguments = {"run",      small_scene(), "--headless",       "--frames",
+                        "10000000", "--stats",     in_folder("s.json")};
     for (const char* file : {"film.mp4", "last.png", "f_%d.exr"})
         launch.arguments.insert(launch.arguments.end(), {"--out", in_folder(file)});
     launch.interrupt_when_there_is = in_folder("f_2.exr");

@@ -67,15 +67,16 @@ TEST(PlanLog, CountsRunsAndKeepsEachReasonOnce)
 {
     PlanLog log;
     gl::FramePlan plan;
-    plan.passes = {{"sort", true, "over-blending", "", ""}};
+    plan.passes = {{"sort", true, "over-blending of 7 flakes", "", ""}};
     log.add(plan);
+    plan.passes[0].reason = "over-blending of 19 flakes";
     log.add(plan);
     plan.passes = {{"sort", false, "at rest", "", ""}};
     log.add(plan);
     ASSERT_EQ(log.passes().size(), 1U);
     EXPECT_EQ(log.passes()[0].ran, 2U);
     EXPECT_EQ(log.passes()[0].skipped, 1U);
-    EXPECT_THAT(log.passes()[0].ran_because, testing::ElementsAre("over-blending"));
+    EXPECT_THAT(log.passes()[0].ran_because, testing::ElementsAre("over-blending of 7 flakes"));
     EXPECT_THAT(log.passes()[0].skipped_because, testing::ElementsAre("at rest"));
 }
 
