@@ -37,6 +37,8 @@ TEST(SceneErrors, LettersOutsideOfQuotes)
 {
     EXPECT_THAT(error_of(changed("1000", "1000 \xc3\xa9")), StartsWith("s.toml:5: is not TOML ("));
     EXPECT_THAT(error_of(changed("1000", "1000 \xe3\x81\x82")), StartsWith("s.toml:5: is not TOML ("));
+    EXPECT_THAT(error_of("[\n"), StartsWith("s.toml:1: is not TOML ("));
+    EXPECT_THAT(error_of("[\xc3\xa9]\n"), StartsWith("s.toml:1: is not TOML ("));
     EXPECT_EQ(error_of(with("[scene]\nabout = \"\"\"\\\n  \xc3\xa9t\xc3\xa9 \"\"\" # \xc3\xa9\n")), "");
 }
 
