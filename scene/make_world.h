@@ -9,8 +9,9 @@
 namespace spindrift::scene
 {
 
-/// Everything that flakes meet, from a validated scene: local frame, voxels of the solid geometry and of the wind file's solid
-/// cells, wind records. Throws Error for wind files that are missing, truncated or do not fit the domain.
+/// Everything that flakes meet, from a validated scene: local frame, voxels of the solid geometry and of the
+/// wind file's solid cells, wind records. Throws Error for wind files that are missing, truncated or do not
+/// fit the domain.
 World make_world(const Scene& scene, const Geometry& geometry);
 
 /// The camera of a scene at a time, in the local frame.

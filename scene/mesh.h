@@ -43,9 +43,10 @@ struct Mesh
     std::string vehicle;  ///< not empty: moves with it
 };
 
-/// Reads a model file (OBJ, glTF 2 and what else assimp reads) into the local frame of `scene`: node transforms applied, faces
-/// triangulated, missing normals made, punctual lights of the file appended to `lights` (world frame).
-/// Throws Error for a missing or truncated file, no triangles, or a vertex that is not finite.
+/// Reads a model file (OBJ, glTF 2 and what else assimp reads) into the local frame of `scene`: node
+/// transforms applied, faces triangulated, missing normals made, punctual lights of the file appended to
+/// `lights` (world frame). Throws Error for a missing or truncated file, no triangles, or a vertex that is
+/// not finite.
 Mesh read_model(const Scene& scene, const ModelSettings& settings, std::vector<Light>& lights);
 
 /// Boxes, ground (plane or height field) and models of a scene, ready to draw, in the local frame.
