@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdlib>
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -85,7 +86,7 @@ class Comparison
 {
   public:
     Comparison(KeyPattern pattern, std::size_t n)
-        : n_(n), source_(pattern, n), input_(n), pairs_(n), scratch_(n), contenders_(contenders())
+        : n_(n), source_(pattern, n), pairs_(n), scratch_(n), contenders_(contenders())
     {
         sort_ms_.resize(contenders_.size());
         floor_ms_.resize(contenders_.size());
@@ -118,7 +119,7 @@ class Comparison
         std::vector<double> spent_ms(contenders_.size());
         for (std::size_t round = 0; round < kMostRounds; ++round)
         {
-            frame_ = source_.next_frame();
+            next_frame();
             for (std::size_t i = 0; i < contenders_.size(); ++i)
             {
                 if (round >= kFewestRounds && spent_ms[i] > kEnough_ms) continue;
@@ -129,20 +130,29 @@ class Comparison
         }
     }
 
-    // The parallel copy also wakes the workers, as the culling before a sort does.
-    void refill(int key_bits)
+    void next_frame()
     {
-        const int narrower = 32 - key_bits;
-        for (std::size_t i = 0; i < frame_.size(); ++i)
-            input_[i] =
-                narrower == 0 ? frame_[i] : frame_[i] >> (32 + narrower) << 32 | (frame_[i] & 0xffff'ffffU);
-        parallel_copy(pairs_.data(), input_.data(), frame_.size() * sizeof(std::uint64_t));
+        const auto frame = source_.next_frame();
+        for (auto& [key_bits, input] : inputs_)
+        {
+            input.resize(frame.size());
+            for (std::size_t i = 0; i < frame.size(); ++i) input[i] = source_.narrowed(frame[i], key_bits);
+        }
+    }
+
+    // The parallel copy also wakes the workers, as the culling before a sort does. Returns the number of
+    // pairs.
+    std::size_t refill(int key_bits)
+    {
+        const auto& input = inputs_.at(key_bits);
+        parallel_copy(pairs_.data(), input.data(), input.size() * sizeof(std::uint64_t));
+        return input.size();
     }
 
     double time_sort(const Contender& contender)
     {
-        refill(contender.key_bits);
-        const cpu::SortJob job{pairs_.data(), scratch_.data(), frame_.size(), contender.key_bits};
+        const std::size_t n = refill(contender.key_bits);
+        const cpu::SortJob job{pairs_.data(), scratch_.data(), n, contender.key_bits};
         const std::uint64_t* sorted = nullptr;
         const bool own_threads = contender.strategy->name == "block-indirect";
         const auto free = own_threads ? std::make_unique<AnyCore>() : nullptr;
@@ -155,8 +165,8 @@ class Comparison
     // moved.
     double time_floor(const Contender& contender)
     {
-        refill(contender.key_bits);
-        const double array_bytes = static_cast<double>(frame_.size() * sizeof(std::uint64_t));
+        const std::size_t n = refill(contender.key_bits);
+        const double array_bytes = static_cast<double>(n * sizeof(std::uint64_t));
         return time_ms(
             [&]
             {
@@ -172,8 +182,8 @@ class Comparison
 
     std::size_t n_;
     PairSource source_;
-    std::span<const std::uint64_t> frame_;
-    std::vector<std::uint64_t> input_, pairs_, scratch_;
+    std::map<int, std::vector<std::uint64_t>> inputs_{{32, {}}, {24, {}}, {16, {}}};  // by key bits
+    std::vector<std::uint64_t> pairs_, scratch_;
     std::vector<Contender> contenders_;
     std::vector<std::vector<double>> sort_ms_, floor_ms_;
 };

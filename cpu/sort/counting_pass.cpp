@@ -22,8 +22,13 @@ struct alignas(64) OwnLine  // so that threads do not write to one cache line
     std::uint64_t bits = 0;
 };
 
-void count_block(const std::uint64_t* first, const std::uint64_t* last, Digit digit, std::uint32_t* histogram)
+// The loops below are where a sort spends its time. Inlined into a task of TBB they run out of registers.
+#define SPINDRIFT_HOT_LOOP __attribute__((noinline))
+
+SPINDRIFT_HOT_LOOP void count_run(const std::uint64_t* first, const std::uint64_t* last, Digit digit,
+                                  std::uint32_t* histogram)
 {
+    std::fill_n(histogram, digit.values(), 0U);
     for (; last - first >= 4; first += 4)
     {
         const std::uint64_t a = first[0], b = first[1], c = first[2], d = first[3];
@@ -35,20 +40,26 @@ void count_block(const std::uint64_t* first, const std::uint64_t* last, Digit di
     for (; first != last; ++first) ++histogram[digit.of(*first)];
 }
 
-// Returns the bits in which a pair of the run differs from `sample`. Looked for in a loop of its own, which
-// vectorises, over blocks that are in the nearest cache when they are counted.
-std::uint64_t count_run(const std::uint64_t* first, const std::uint64_t* last, std::uint64_t sample,
-                        Digit digit, std::uint32_t* histogram)
+// As count_run; returns the bits in which a pair of the run differs from `sample`.
+SPINDRIFT_HOT_LOOP std::uint64_t count_run_and_compare(const std::uint64_t* first, const std::uint64_t* last,
+                                                       std::uint64_t sample, Digit digit,
+                                                       std::uint32_t* histogram)
 {
-    constexpr std::ptrdiff_t kBlock = 1024;
     std::fill_n(histogram, digit.values(), 0U);
     std::uint64_t differing = 0;
-    while (first != last)
+    for (; last - first >= 4; first += 4)
     {
-        const std::uint64_t* const end = first + std::min(kBlock, last - first);
-        for (const std::uint64_t* pair = first; pair != end; ++pair) differing |= *pair ^ sample;
-        count_block(first, end, digit, histogram);
-        first = end;
+        const std::uint64_t a = first[0], b = first[1], c = first[2], d = first[3];
+        ++histogram[digit.of(a)];
+        ++histogram[digit.of(b)];
+        ++histogram[digit.of(c)];
+        ++histogram[digit.of(d)];
+        differing |= (a ^ sample) | (b ^ sample) | (c ^ sample) | (d ^ sample);
+    }
+    for (; first != last; ++first)
+    {
+        ++histogram[digit.of(*first)];
+        differing |= *first ^ sample;
     }
     return differing;
 }
@@ -56,8 +67,8 @@ std::uint64_t count_run(const std::uint64_t* first, const std::uint64_t* last, s
 // A pair goes to the next place of its value. The line after that place is fetched early: without it each
 // first store to a line waits for the line, and stores retire in order (2.5x slower on a million pairs, see
 // docs/decisions). A prefetch never faults, so it may point past the end.
-void scatter_run(const std::uint64_t* first, const std::uint64_t* last, std::uint64_t* to, Digit digit,
-                 std::uint32_t* places)
+SPINDRIFT_HOT_LOOP void scatter_run(const std::uint64_t* first, const std::uint64_t* last, std::uint64_t* to,
+                                    Digit digit, std::uint32_t* places)
 {
     constexpr std::uintptr_t kAhead_bytes = 128;
     const auto put = [=](std::uint64_t pair)
@@ -128,17 +139,27 @@ Chunks::Chunks(std::size_t n, std::size_t shortest, std::size_t most)
 {
 }
 
-std::uint64_t count_digit(const std::uint64_t* pairs, const Chunks& chunks, Digit digit,
-                          std::uint32_t* histograms)
+void count_digit(const std::uint64_t* pairs, const Chunks& chunks, Digit digit, std::uint32_t* histograms)
+{
+    parallel_for_each_index(chunks.count(),
+                            [&](std::size_t chunk)
+                            {
+                                count_run(pairs + chunks.begin(chunk), pairs + chunks.end(chunk), digit,
+                                          histograms + chunk * digit.values());
+                            });
+}
+
+std::uint64_t count_digit_and_compare(const std::uint64_t* pairs, const Chunks& chunks, Digit digit,
+                                      std::uint32_t* histograms)
 {
     std::array<OwnLine, kMostChunks> differing{};
     const std::uint64_t sample = pairs[0];
     parallel_for_each_index(chunks.count(),
                             [&](std::size_t chunk)
                             {
-                                differing[chunk].bits =
-                                    count_run(pairs + chunks.begin(chunk), pairs + chunks.end(chunk), sample,
-                                              digit, histograms + chunk * digit.values());
+                                differing[chunk].bits = count_run_and_compare(
+                                    pairs + chunks.begin(chunk), pairs + chunks.end(chunk), sample, digit,
+                                    histograms + chunk * digit.values());
                             });
     std::uint64_t all = 0;
     for (const OwnLine& line : differing) all |= line.bits;

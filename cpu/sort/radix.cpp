@@ -21,8 +21,8 @@ constexpr int kKeyShift = 32;
 constexpr std::size_t kShortestChunk = 4096;
 constexpr std::size_t kMostChunks = 64;
 
-/// The passes over the key bits in which keys differ: as few as the widest digit allows, of even width; at
-/// least one.
+/// The passes over the span of key bits that are set in `differing`: as few as the widest digit allows, of
+/// even width; at least one.
 class Plan
 {
   public:
@@ -77,6 +77,15 @@ void insertion_sort(std::uint64_t* pairs, std::size_t n)
     }
 }
 
+bool all_in_one_value(const Chunks& chunks, Digit digit, const std::uint32_t* histograms, std::uint64_t pair,
+                      std::size_t n)
+{
+    std::size_t count = 0;
+    for (std::size_t chunk = 0; chunk < chunks.count(); ++chunk)
+        count += histograms[chunk * digit.values() + digit.of(pair)];
+    return count == n;
+}
+
 std::uint64_t* sort(const SortJob& job)
 {
     constexpr std::size_t kTiny = 64;
@@ -89,25 +98,29 @@ std::uint64_t* sort(const SortJob& job)
     const int widest = widest_digit_bits(job.n);
     const HistogramLease lease(chunks.count() << widest);
 
-    // Plan for the bits in which a few keys differ; the first count, needed anyway, says in which all of
-    // them do.
-    Plan plan(differing_bits_of_some(job), widest);
-    const auto differing =
-        static_cast<std::uint32_t>(count_digit(job.pairs, chunks, plan[0], lease.counters()) >> kKeyShift);
-    if (differing == 0) return job.pairs;
-    const Plan exact(differing, widest);
-    bool counted = exact[0] == plan[0];
-    plan = exact;
+    // Bits in which no key differs need no pass. A few keys say whether leaving them out could save one; only
+    // then does the first count, slower for it, look at all keys.
+    const std::uint32_t all_bits = ~0U >> (32 - job.key_bits);
+    Plan plan(all_bits, widest);
+    const Plan hoped_for(differing_bits_of_some(job), widest);
+    bool counted = false;
+    if (hoped_for.count() < plan.count())
+    {
+        const Digit first = hoped_for[0];
+        const std::uint64_t differing = count_digit_and_compare(job.pairs, chunks, first, lease.counters());
+        if (differing >> kKeyShift == 0) return job.pairs;
+        plan = Plan(static_cast<std::uint32_t>(differing >> kKeyShift), widest);
+        counted = plan[0] == first;
+    }
 
     std::uint64_t* from = job.pairs;
     std::uint64_t* to = job.scratch;
     for (std::size_t pass = 0; pass < plan.count(); ++pass)
     {
         const Digit digit = plan[pass];
-        const bool constant = digit.of(std::uint64_t{differing} << kKeyShift) == 0;
-        if (constant) continue;
         if (!counted) count_digit(from, chunks, digit, lease.counters());
         counted = false;
+        if (all_in_one_value(chunks, digit, lease.counters(), from[0], job.n)) continue;
         counts_to_places(chunks, digit, lease.counters());
         scatter_by_digit(from, to, chunks, digit, lease.counters());
         std::swap(from, to);
