@@ -30,6 +30,7 @@ struct FrameConstants
 enum Binding : unsigned
 {
     kFrameBlock = 0,
+    kFewLights = 1,
     kXArray = 0,
     kYArray = 1,
     kZArray = 2,

@@ -104,6 +104,7 @@ void Renderer::Impl::upload_lights(const std::vector<PackedLight>& lights)
         glNamedBufferSubData(light_buffer.name(), 0,
                              static_cast<GLsizeiptr>(lights.size() * sizeof(PackedLight)), lights.data());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kLights, light_buffer.name());
+    glBindBufferBase(GL_UNIFORM_BUFFER, kFewLights, light_buffer.name());
 }
 
 FrameConstants Renderer::Impl::constants(const View& view, std::size_t lights, double time_s) const
@@ -144,11 +145,7 @@ void Renderer::Impl::draw_solid(const FramePlan& plan, std::size_t lights, doubl
     glDepthMask(GL_TRUE);
     constexpr GLfloat far_depth = 0;
     glClearNamedFramebufferfv(picture.linear_target.name(), GL_DEPTH, 0, &far_depth);
-    if (plan.runs("scene"))
-    {
-        glDepthFunc(GL_GREATER);
-        timed("scene", [&] { scene_pass.draw(lights, time_s); });
-    }
+    if (plan.runs("scene")) timed("scene", [&] { scene_pass.draw(lights, time_s); });
     glDepthMask(GL_FALSE);
     if (plan.runs("sky"))
     {

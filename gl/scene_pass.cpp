@@ -13,6 +13,7 @@ namespace
 {
 
 constexpr std::array<std::string_view, 2> kMeshFiles{"scene.vert", "scene.frag"};
+constexpr std::array<std::string_view, 2> kDepthFiles{"scene.vert", "depth_only.frag"};
 constexpr GLint kOffset = 0;
 constexpr GLint kAlbedo = 1;
 constexpr GLint kEmission = 2;
@@ -64,19 +65,39 @@ ScenePass::Body ScenePass::make_body(const scene::Scene& scene, const scene::Mes
 }
 
 ScenePass::ScenePass(const scene::Scene& scene, const scene::Geometry& geometry)
-    : program_(kMeshFiles), domain_(scene.domain)
+    : program_(kMeshFiles), depth_program_(make_program(kDepthFiles)), domain_(scene.domain)
 {
     for (const scene::Mesh& mesh : geometry.meshes)
-        if (!mesh.vertices.empty()) bodies_.push_back(make_body(scene, mesh));
+        if (!mesh.vertices.empty() && !mesh.parts.empty()) bodies_.push_back(make_body(scene, mesh));
 }
 
-void ScenePass::draw_bodies(GLuint program, double time_s) const
+Vec3f ScenePass::offset_of(const Body& body, double time_s) const
 {
+    return body.vehicle ? scene::vehicle_at(*body.vehicle, domain_, time_s) : Vec3f{0, 0, 0};
+}
+
+void ScenePass::draw_depth(double time_s) const
+{
+    const GLuint program = depth_program_.name();
     glUseProgram(program);
     for (const Body& body : bodies_)
     {
-        const Vec3f offset =
-            body.vehicle ? scene::vehicle_at(*body.vehicle, domain_, time_s) : Vec3f{0, 0, 0};
+        const Vec3f offset = offset_of(body, time_s);
+        glProgramUniform3f(program, kOffset, offset.x, offset.y, offset.z);
+        glBindVertexArray(body.array.name());
+        const Part& last = body.parts.back();
+        const auto indices = static_cast<GLsizei>(last.first_byte / sizeof(std::uint32_t)) + last.count;
+        glDrawElements(GL_TRIANGLES, indices, GL_UNSIGNED_INT, nullptr);
+    }
+}
+
+void ScenePass::draw_lit(std::size_t lights, double time_s) const
+{
+    const GLuint program = program_.for_lights(lights);
+    glUseProgram(program);
+    for (const Body& body : bodies_)
+    {
+        const Vec3f offset = offset_of(body, time_s);
         glProgramUniform3f(program, kOffset, offset.x, offset.y, offset.z);
         glBindVertexArray(body.array.name());
         for (const Part& part : body.parts)
@@ -90,7 +111,15 @@ void ScenePass::draw_bodies(GLuint program, double time_s) const
 
 void ScenePass::draw(std::size_t lights, double time_s) const
 {
-    if (!bodies_.empty()) draw_bodies(program_.for_lights(lights), time_s);
+    if (bodies_.empty()) return;
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_GREATER);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    draw_depth(time_s);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthMask(GL_FALSE);
+    glDepthFunc(GL_EQUAL);
+    draw_lit(lights, time_s);
 }
 
 }  // namespace spindrift::gl

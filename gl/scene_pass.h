@@ -12,7 +12,8 @@
 namespace spindrift::gl
 {
 
-/// Draws the solid things; meshes on vehicles at their place.
+/// Draws the solid things; meshes on vehicles at their place. Depth first, so that light is computed once a
+/// pixel.
 class ScenePass
 {
   public:
@@ -33,10 +34,13 @@ class ScenePass
         std::vector<Part> parts;
         std::optional<scene::VehicleSettings> vehicle;
     };
-    void draw_bodies(GLuint program, double time_s) const;
+    void draw_depth(double time_s) const;
+    void draw_lit(std::size_t lights, double time_s) const;
+    Vec3f offset_of(const Body& body, double time_s) const;
     Body make_body(const scene::Scene& scene, const scene::Mesh& mesh) const;
 
     LitProgram program_;
+    Program depth_program_;
     std::vector<Body> bodies_;
     scene::DomainSettings domain_;
 };

@@ -7,12 +7,14 @@ struct Light
     vec4 intensity;  // W/sr or W/m2; asymmetry g
     vec4 limits;     // offset of the spot term, 1 / range, 0, 0
 };
+// Up to eight lights are read as uniforms by constant index, which software GL does an order faster; more as a buffer.
 #ifdef LIGHTS
 const uint kLightCount = LIGHTS;
+layout(std140, binding = 1) uniform FewLights { Light lights[8]; };
 #else
 #define kLightCount counts.x
-#endif
 layout(std430, binding = 5) readonly buffer Lights { Light lights[]; };
+#endif
 
 const float kNearestLight = 0.05;  // m
 
