@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
+#include <glm/vec4.hpp>
 #include <span>
 #include <vector>
 
@@ -14,11 +14,10 @@ namespace spindrift::gl
 /// One light as shaders/lights.glsl reads it (std430).
 struct PackedLight
 {
-    using Vec4 = std::array<float, 4>;
-    Vec4 place{};
-    Vec4 direction{};
-    Vec4 intensity{};
-    Vec4 limits{};
+    glm::vec4 place{};
+    glm::vec4 direction{};
+    glm::vec4 intensity{};
+    glm::vec4 limits{};
 };
 
 /// The lights that count in a frame, and why the others do not.

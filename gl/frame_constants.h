@@ -2,7 +2,7 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
+#include <glm/vec4.hpp>
 
 namespace spindrift::gl
 {
@@ -11,19 +11,18 @@ namespace spindrift::gl
 /// them).
 struct FrameConstants
 {
-    using Vec4 = std::array<float, 4>;
-    Vec4 eye_time{};
-    Vec4 right_tan{};
-    Vec4 up_tan{};
-    Vec4 forward_near{};
-    Vec4 ambient_far{};
-    Vec4 zenith_exposure{};
-    Vec4 horizon_focal{};
-    Vec4 look{};
-    Vec4 sprite{};
-    std::array<std::uint32_t, 4> counts{};
-    Vec4 picture{};
-    std::array<Vec4, 4> mask_means{};
+    glm::vec4 eye_time{};
+    glm::vec4 right_tan{};
+    glm::vec4 up_tan{};
+    glm::vec4 forward_near{};
+    glm::vec4 ambient_far{};
+    glm::vec4 zenith_exposure{};
+    glm::vec4 horizon_focal{};
+    glm::vec4 look{};
+    glm::vec4 sprite{};
+    glm::uvec4 counts{};
+    glm::vec4 picture{};
+    std::array<glm::vec4, 4> mask_means{};
 };
 
 /// Binding points that all programs share.

@@ -115,7 +115,8 @@ PlannedPass plan_fade(const Facts& facts)
     if (!facts.has_flakes) return left_out("fade", "no flakes are alive");
     if (!facts.blended) return left_out("fade", "opaque points do not fade where they cut into the scene");
     if (!facts.has_solids) return left_out("fade", "nothing solid to cut into");
-    return runs("fade", "flakes fade where they cut into the scene", "depth", "copy of depth");
+    return runs("fade", "flakes fade where they cut into the scene; hidden ones are dropped early", "depth",
+                "copy of depth, depth tiles");
 }
 
 std::string_view blending_name(Blending blending)
@@ -141,7 +142,7 @@ PlannedPass plan_flakes(const Facts& facts)
                                 ? std::string("no scattering loop")
                                 : fmt::format("{} phase function{}", facts.lights.lights.size(),
                                               facts.lights.lights.size() == 1 ? "" : "s")),
-                facts.blended ? "flakes, draw list, lights, depth, copy of depth"
+                facts.blended ? "flakes, draw list, lights, depth, copy of depth, depth tiles"
                               : "flakes, draw list, lights, depth",
                 facts.blended ? "picture" : "picture, depth");
 }

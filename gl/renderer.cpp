@@ -24,11 +24,11 @@ namespace spindrift::gl
 namespace
 {
 
-FrameConstants::Vec4 vec4(const Vec3f& v, float w)
+glm::vec4 vec4(const Vec3f& v, float w)
 {
     return {v.x, v.y, v.z, w};
 }
-FrameConstants::Vec4 vec4(const scene::Colour& c, float w)
+glm::vec4 vec4(const scene::Colour& c, float w)
 {
     return {c.r, c.g, c.b, w};
 }

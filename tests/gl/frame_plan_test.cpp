@@ -151,7 +151,7 @@ TEST(ActiveLights, LieInTheLocalFrame)
     scene.lights.push_back(lamp);
     const ActiveLights active = active_lights(scene, {}, View{}, 0);
     ASSERT_EQ(active.lights.size(), 1U);
-    EXPECT_EQ(active.lights[0].place, (PackedLight::Vec4{1, 3, 5, 1}));
+    EXPECT_EQ(active.lights[0].place, glm::vec4(1, 3, 5, 1));
 }
 
 }  // namespace
