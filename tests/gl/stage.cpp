@@ -26,7 +26,7 @@ void append_quad(scene::Mesh& mesh, const Vec3f& a, const Vec3f& b, const Vec3f&
 /// Portable pixmap: needs no library.
 void keep_picture(const std::string& name, const image::Image8& picture)
 {
-    std::ofstream file(name + ".ppm", std::ios::binary);
+    std::ofstream file(testing::TempDir() + "spindrift-" + name + ".ppm", std::ios::binary);
     file << "P6 " << picture.width << ' ' << picture.height << " 255\n";
     file.write(reinterpret_cast<const char*>(picture.rgb.data()),
                static_cast<std::streamsize>(picture.rgb.size()));

@@ -44,7 +44,7 @@ struct Stage
     void add_box(const Vec3f& low, const Vec3f& high, const scene::Material& material);
 
     image::Image draw(double time_s = 0) const;
-    /// Draws, and keeps the display picture as a PNG in the test's folder, for people to look at.
+    /// Draws, and keeps the display picture in the folder for temporary files, for people to look at.
     image::Image draw_and_keep(const std::string& name, double time_s = 0) const;
 };
 
