@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include <fstream>
+#include <algorithm>
+#include <filesystem>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/app/child_process.h"
 #include "tests/app/command_fixture.h"
+#include "tests/scene/temporary_folder.h"
 
 namespace spindrift::test
 {
@@ -281,6 +283,40 @@ TEST_F(Command, ScenesListsTheShippedOnesWithoutAFault)
     EXPECT_EQ(scenes.exit_code, 0) << scenes.error;
     for (const char* name : {"town", "canyon", "sheet", "calm"}) EXPECT_THAT(scenes.output, HasSubstr(name));
     EXPECT_THAT(scenes.output, Not(HasSubstr("cannot be run"))) << scenes.output;
+}
+
+TEST_F(Command, EveryShippedSceneRuns)
+{
+    std::size_t scenes = 0;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::filesystem::path(SPINDRIFT_SOURCE_DIR) / "scenes"))
+    {
+        if (entry.path().extension() != ".toml") continue;
+        ++scenes;
+        const std::string scene = entry.path().string();
+        const Finished run =
+            run_command({"run", scene, "--headless", "--particles", "3000", "--steps", "3", "--hash"});
+        // This one blows in a wind field that the command line names.
+        const bool without_its_wind = entry.path().stem() == "two-blocks";
+        EXPECT_EQ(run.exit_code, without_its_wind ? 2 : 0) << scene << ": " << run.error;
+        EXPECT_THAT(run.error, without_its_wind ? HasSubstr("--wind") : HasSubstr("")) << scene;
+    }
+    EXPECT_GE(scenes, 5U);
+}
+
+TEST_F(Command, RealWindFieldBlowsRoundItsBlocks)
+{
+    const std::filesystem::path winds = scene::optional_data("qes/TwoBuildings_windsWk.nc");
+    const std::filesystem::path turbulence = scene::optional_data("qes/TwoBuildings_turbOut.nc");
+    if (winds.empty() || turbulence.empty())
+        GTEST_SKIP() << "no qes/TwoBuildings_*.nc: set SPINDRIFT_TEST_DATA to a folder that holds them";
+    std::vector<std::string> arguments = {"run",    "two-blocks",   "--headless",   "--particles",
+                                          "20000",  "--steps",      "20",           "--hash",
+                                          "--wind", winds.string(), "--turbulence", turbulence.string()};
+    const Finished run = run_command(arguments);
+    EXPECT_EQ(run.exit_code, 0) << run.error;
+    arguments.insert(arguments.end(), {"--threads", "1", "--simd", "scalar"});
+    EXPECT_EQ(hash_of(run_command(arguments)), hash_of(run));
 }
 
 }  // namespace
