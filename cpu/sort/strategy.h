@@ -26,7 +26,7 @@ struct SortStrategy
     std::string_view about;  ///< one line for --help
     /// Returns where the sorted pairs are: job.pairs or job.scratch. Null for "none".
     std::uint64_t* (*sort)(const SortJob& job);
-    int max_key_bits;        ///< most key bits that it can use: the key maker narrows the keys to it
+    int max_key_bits;             ///< most key bits that it can use: the key maker narrows the keys to it
     int bytes_moved_per_pair_32;  ///< the traffic of its passes at 32 key bits, 0 if it depends on the data
 };
 
