@@ -10,7 +10,7 @@ namespace spindrift
 
 /// Sub-steps are made so short that h |dS/dx| stays below this (docs/physics.md "Turbulence", table): there
 /// the well-mixed sinusoid is at statistical noise.
-inline constexpr double kGradientLimit = 0.25;
+inline constexpr double kGradientLimit = 0.15;
 /// Most sub-steps that one step is cut into.
 inline constexpr int kMostSubsteps = 64;
 

@@ -8,6 +8,7 @@
 #include <sys/mman.h>
 
 #include "core/error.h"
+#include "core/gradient_reach.h"
 
 namespace spindrift::cpu
 {
@@ -107,6 +108,9 @@ HeldWorld::HeldWorld(const World& world) : data_(without_cells(world))
     cells_ = std::unique_ptr<void, Unmap>(p, Unmap{bytes});
     madvise(p, bytes, MADV_HUGEPAGE);  // a kernel that refuses costs speed only
     std::memcpy(p, world.wind.cells.data(), bytes);
+    const Wind& wind = world.wind;
+    if (wind.turbulent)
+        spread_gradients(static_cast<WindCell*>(p), wind.nx, wind.ny, wind.nz, wind.cell_m, world.step_s);
 }
 
 AdvectJob HeldWorld::job() const

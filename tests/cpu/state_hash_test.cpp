@@ -10,7 +10,7 @@ namespace spindrift::cpu::test
 namespace
 {
 
-constexpr std::uint64_t kCapacity = 16384;
+constexpr std::uint64_t kCapacity = 9000;
 constexpr int kSteps = 150;
 
 std::uint64_t hash_after(const World& world, CpuOptions options, int steps = kSteps)

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "core/world.h"
+
+namespace spindrift
+{
+
+// Prepares wind cells for a step length. Host only; both backends call it on their own copy of the cells.
+
+/// Farthest cells that are looked at, along each axis.
+inline constexpr int kMostGradientReach = 64;
+
+namespace detail
+{
+
+/// Largest of `values[i - reach … i + reach]` along one axis of a box, for every element.
+inline void spread_maximum(std::vector<float>& values, std::size_t before, std::size_t along,
+                           std::size_t after, int reach)
+{
+    if (reach <= 0 || along < 2) return;
+    const auto r = static_cast<std::size_t>(reach);
+    std::vector<float> line(along);
+    for (std::size_t a = 0; a < after; ++a)
+        for (std::size_t b = 0; b < before; ++b)
+        {
+            float* const first = values.data() + a * along * before + b;
+            for (std::size_t i = 0; i < along; ++i) line[i] = first[i * before];
+            for (std::size_t i = 0; i < along; ++i)
+            {
+                const std::size_t from = i > r ? i - r : 0;
+                const std::size_t to = std::min(i + r + 1, along);
+                first[i * before] = *std::max_element(line.data() + from, line.data() + to);
+            }
+        }
+}
+
+}  // namespace detail
+
+/// Replaces each cell's gradient by the largest within the reach of a flake's turbulence in one step, twice
+/// the largest sigma times dt. How often a step is cut must not change within the reach of a step: at the
+/// seam between two step lengths their errors do not cancel, and the air would not stay well mixed
+/// (docs/decisions/011).
+inline void spread_gradients(WindCell* cells, int nx, int ny, int nz, const Vec3f& cell_m, double step_s)
+{
+    const auto x = static_cast<std::size_t>(nx);
+    const auto y = static_cast<std::size_t>(ny);
+    const auto z = static_cast<std::size_t>(nz);
+    std::vector<float> gradient(x * y * z);
+    float variance = 0;
+    for (std::size_t i = 0; i < gradient.size(); ++i)
+    {
+        const WindCell& c = cells[i];
+        gradient[i] = c.gradient;
+        variance = std::max({variance, c.s11 * c.s11, c.s21 * c.s21 + c.s22 * c.s22,
+                             c.s31 * c.s31 + c.s32 * c.s32 + c.s33 * c.s33});
+    }
+    const double reach_m = 2 * std::sqrt(static_cast<double>(variance)) * step_s;
+    const auto reach = [&](float size_m)
+    {
+        const double in_cells = reach_m / static_cast<double>(size_m) + 0.5;
+        return static_cast<int>(std::min(in_cells, static_cast<double>(kMostGradientReach)));
+    };
+    detail::spread_maximum(gradient, 1, x, y * z, reach(cell_m.x));
+    detail::spread_maximum(gradient, x, y, z, reach(cell_m.y));
+    detail::spread_maximum(gradient, x * y, z, 1, reach(cell_m.z));
+    for (std::size_t i = 0; i < gradient.size(); ++i) cells[i].gradient = gradient[i];
+}
+
+}  // namespace spindrift
