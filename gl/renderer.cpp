@@ -78,7 +78,7 @@ struct Renderer::Impl
 
     void upload_lights(const std::vector<PackedLight>& lights);
     FrameConstants constants(const View& view, std::size_t lights, double time_s) const;
-    void draw_solid(const FramePlan& plan, std::size_t lights, double time_s);
+    void draw_solid(const FramePlan& plan, const View& view, std::size_t lights, double time_s);
     void draw_flakes(const FramePlan& plan, const View& view, const DrawList& list, std::size_t lights);
     void prepare_depth();
     void draw_tone(const FramePlan& plan);
@@ -134,7 +134,7 @@ FrameConstants Renderer::Impl::constants(const View& view, std::size_t lights, d
     return c;
 }
 
-void Renderer::Impl::draw_solid(const FramePlan& plan, std::size_t lights, double time_s)
+void Renderer::Impl::draw_solid(const FramePlan& plan, const View& view, std::size_t lights, double time_s)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, picture.linear_target.name());
     glViewport(0, 0, picture.width, picture.height);
@@ -145,7 +145,7 @@ void Renderer::Impl::draw_solid(const FramePlan& plan, std::size_t lights, doubl
     glDepthMask(GL_TRUE);
     constexpr GLfloat far_depth = 0;
     glClearNamedFramebufferfv(picture.linear_target.name(), GL_DEPTH, 0, &far_depth);
-    if (plan.runs("scene")) timed("scene", [&] { scene_pass.draw(lights, time_s); });
+    if (plan.runs("scene")) timed("scene", [&] { scene_pass.draw(view.eye, lights, time_s); });
     glDepthMask(GL_FALSE);
     if (plan.runs("sky"))
     {
@@ -212,7 +212,7 @@ void Renderer::draw(const FramePlan& plan, const View& view, const DrawList& fla
     glNamedBufferSubData(m.frame_block.name(), 0, sizeof(constants), &constants);
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBlock, m.frame_block.name());
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    m.draw_solid(plan, lights.size(), time_s);
+    m.draw_solid(plan, view, lights.size(), time_s);
     m.draw_flakes(plan, view, flakes, lights.size());
     m.draw_tone(plan);
 }

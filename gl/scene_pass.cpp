@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "gl/scene_pass.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "scene/make_world.h"
@@ -13,7 +15,6 @@ namespace
 {
 
 constexpr std::array<std::string_view, 2> kMeshFiles{"scene.vert", "scene.frag"};
-constexpr std::array<std::string_view, 2> kDepthFiles{"scene.vert", "depth_only.frag"};
 constexpr GLint kOffset = 0;
 constexpr GLint kAlbedo = 1;
 constexpr GLint kEmission = 2;
@@ -39,16 +40,11 @@ Buffer upload(const std::vector<T>& data)
 ScenePass::Body ScenePass::make_body(const scene::Scene& scene, const scene::Mesh& mesh) const
 {
     Body body;
-    std::vector<std::uint32_t> indices;
-    for (const scene::MeshPart& part : mesh.parts)
-    {
-        body.parts.push_back({static_cast<GLsizei>(part.indices.size()),
-                              indices.size() * sizeof(std::uint32_t),
-                              mesh.materials.at(static_cast<std::size_t>(part.material))});
-        indices.insert(indices.end(), part.indices.begin(), part.indices.end());
-    }
+    const ClusteredMesh clustered = gather_clusters(mesh);
+    body.clusters = clustered.clusters;
+    body.materials = mesh.materials;
     body.vertices = upload(mesh.vertices);
-    body.indices = upload(indices);
+    body.indices = upload(clustered.indices);
     body.array = make_vertex_array();
     const GLuint array = body.array.name();
     glVertexArrayVertexBuffer(array, 0, body.vertices.name(), 0, sizeof(scene::Vertex));
@@ -65,7 +61,7 @@ ScenePass::Body ScenePass::make_body(const scene::Scene& scene, const scene::Mes
 }
 
 ScenePass::ScenePass(const scene::Scene& scene, const scene::Geometry& geometry)
-    : program_(kMeshFiles), depth_program_(make_program(kDepthFiles)), domain_(scene.domain)
+    : program_(kMeshFiles), domain_(scene.domain)
 {
     for (const scene::Mesh& mesh : geometry.meshes)
         if (!mesh.vertices.empty() && !mesh.parts.empty()) bodies_.push_back(make_body(scene, mesh));
@@ -76,50 +72,39 @@ Vec3f ScenePass::offset_of(const Body& body, double time_s) const
     return body.vehicle ? scene::vehicle_at(*body.vehicle, domain_, time_s) : Vec3f{0, 0, 0};
 }
 
-void ScenePass::draw_depth(double time_s) const
+std::vector<ScenePass::Draw> ScenePass::near_to_far(const Vec3f& eye, double time_s) const
 {
-    const GLuint program = depth_program_.name();
-    glUseProgram(program);
+    std::vector<Draw> draws;
     for (const Body& body : bodies_)
     {
         const Vec3f offset = offset_of(body, time_s);
-        glProgramUniform3f(program, kOffset, offset.x, offset.y, offset.z);
-        glBindVertexArray(body.array.name());
-        const Part& last = body.parts.back();
-        const auto indices = static_cast<GLsizei>(last.first_byte / sizeof(std::uint32_t)) + last.count;
-        glDrawElements(GL_TRIANGLES, indices, GL_UNSIGNED_INT, nullptr);
-    }
-}
-
-void ScenePass::draw_lit(std::size_t lights, double time_s) const
-{
-    const GLuint program = program_.for_lights(lights);
-    glUseProgram(program);
-    for (const Body& body : bodies_)
-    {
-        const Vec3f offset = offset_of(body, time_s);
-        glProgramUniform3f(program, kOffset, offset.x, offset.y, offset.z);
-        glBindVertexArray(body.array.name());
-        for (const Part& part : body.parts)
+        for (const MeshCluster& cluster : body.clusters)
         {
-            set_material(program, part.material);
-            glDrawElements(GL_TRIANGLES, part.count, GL_UNSIGNED_INT,
-                           reinterpret_cast<const void*>(part.first_byte));
+            const Vec3f away = cluster.middle + offset - eye;
+            // By the far end, so that what reaches to the horizon comes last.
+            draws.push_back({&body, &cluster, offset, std::sqrt(dot(away, away)) + cluster.radius_m});
         }
     }
+    std::sort(draws.begin(), draws.end(),
+              [](const Draw& a, const Draw& b) { return a.farthest_m < b.farthest_m; });
+    return draws;
 }
 
-void ScenePass::draw(std::size_t lights, double time_s) const
+void ScenePass::draw(const Vec3f& eye, std::size_t lights, double time_s) const
 {
     if (bodies_.empty()) return;
-    glDepthMask(GL_TRUE);
+    const GLuint program = program_.for_lights(lights);
+    glUseProgram(program);
     glDepthFunc(GL_GREATER);
-    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    draw_depth(time_s);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glDepthMask(GL_FALSE);
-    glDepthFunc(GL_EQUAL);
-    draw_lit(lights, time_s);
+    for (const Draw& draw : near_to_far(eye, time_s))
+    {
+        const MeshCluster& cluster = *draw.cluster;
+        glProgramUniform3f(program, kOffset, draw.offset_m.x, draw.offset_m.y, draw.offset_m.z);
+        set_material(program, draw.body->materials.at(static_cast<std::size_t>(cluster.material)));
+        glBindVertexArray(draw.body->array.name());
+        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(cluster.count), GL_UNSIGNED_INT,
+                       reinterpret_cast<const void*>(cluster.first * sizeof(std::uint32_t)));
+    }
 }
 
 }  // namespace spindrift::gl

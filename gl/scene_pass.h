@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gl/lit_program.h"
+#include "gl/mesh_clusters.h"
 #include "gl/object.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
@@ -18,29 +19,30 @@ class ScenePass
 {
   public:
     ScenePass(const scene::Scene& scene, const scene::Geometry& geometry);
-    void draw(std::size_t lights, double time_s) const;
+    void draw(const Vec3f& eye, std::size_t lights, double time_s) const;
 
   private:
-    struct Part
-    {
-        GLsizei count;
-        std::size_t first_byte;
-        scene::Material material;
-    };
     struct Body
     {
         Buffer vertices, indices;
         VertexArray array;
-        std::vector<Part> parts;
+        std::vector<MeshCluster> clusters;
+        std::vector<scene::Material> materials;
         std::optional<scene::VehicleSettings> vehicle;
     };
-    void draw_depth(double time_s) const;
-    void draw_lit(std::size_t lights, double time_s) const;
+    /// One call of a frame.
+    struct Draw
+    {
+        const Body* body;
+        const MeshCluster* cluster;
+        Vec3f offset_m;
+        float farthest_m;
+    };
+    std::vector<Draw> near_to_far(const Vec3f& eye, double time_s) const;
     Vec3f offset_of(const Body& body, double time_s) const;
     Body make_body(const scene::Scene& scene, const scene::Mesh& mesh) const;
 
     LitProgram program_;
-    Program depth_program_;
     std::vector<Body> bodies_;
     scene::DomainSettings domain_;
 };

@@ -3,7 +3,6 @@
 layout(location = 0) in vec3 position_m;
 layout(location = 1) in vec3 normal_in;
 layout(location = 0) uniform vec3 offset_m;  // of the vehicle that carries the mesh
-invariant gl_Position;  // drawn twice: depth first, then only what is seen
 out vec3 place;
 out vec3 normal;
 
