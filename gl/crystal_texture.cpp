@@ -12,7 +12,7 @@ Texture make_crystal_texture(std::span<const scene::CrystalMask> masks)
     const auto levels = static_cast<GLsizei>(masks.front().levels.size());
     glTextureStorage3D(name, levels, GL_R8, scene::kCrystalMaskPx, scene::kCrystalMaskPx,
                        static_cast<GLsizei>(masks.size()));
-    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
     glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);

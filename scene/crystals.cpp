@@ -238,12 +238,8 @@ const std::vector<CrystalMask>& crystal_masks()
 double sample_mask(const CrystalMask& mask, double u, double v, double level)
 {
     const double last = static_cast<double>(mask.levels.size()) - 1;
-    const double clamped = std::clamp(level, 0.0, last);
-    const auto fine = static_cast<std::size_t>(clamped);
-    const double part = clamped - static_cast<double>(fine);
-    const double a = bilinear(mask.levels[fine], kCrystalMaskPx >> fine, u, v);
-    if (part == 0) return a;
-    return a * (1 - part) + bilinear(mask.levels[fine + 1], kCrystalMaskPx >> (fine + 1), u, v) * part;
+    const auto nearest = static_cast<std::size_t>(std::clamp(std::floor(level + 0.5), 0.0, last));
+    return bilinear(mask.levels[nearest], kCrystalMaskPx >> nearest, u, v);
 }
 
 }  // namespace spindrift::scene

@@ -32,8 +32,8 @@ std::vector<CrystalMask> grow_crystals();
 /// The same, grown at the first call and kept for the life of the program.
 const std::vector<CrystalMask>& crystal_masks();
 
-/// Trilinear sample in [0, 1] at disc coordinates u, v in [-1, 1] and mip level `level`, edges clamped: what
-/// the texture unit gives.
+/// Bilinear sample in [0, 1] at disc coordinates u, v in [-1, 1] of the mip level nearest to `level`, edges
+/// clamped: what the texture unit gives.
 double sample_mask(const CrystalMask& mask, double u, double v, double level);
 
 }  // namespace spindrift::scene

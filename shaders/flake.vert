@@ -122,7 +122,7 @@ void main()
     vec3 l = strength > 0.0 ? towards / strength : vec3(0.0);
     glow = vec4(lit, opacity);
     lamp = vec4(dot(l, right_tan.xyz), dot(l, up_tan.xyz), -dot(l, forward_near.xyz), clamp((r - 3.0) / 3.0, 0.0, 1.0));
-    shape = vec4(cos(angle), sin(angle), max(log2(64.0 / drawn), 0.0), float(which));
+    shape = vec4(cos(angle), sin(angle), floor(max(log2(64.0 / drawn), 0.0) + 0.5), float(which));
     fade = r < 3.0 || has_scene == 0 ? vec3(soft_edge(clip, z, length_m), -1.0, mean) : vec3(z, 1.0 / length_m, mean);
 #else
     glow = vec4(min(ambient_far.rgb + lit, kLargestRadiance), opacity * mean);
