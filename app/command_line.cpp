@@ -12,6 +12,7 @@
 #include "app/commands.h"
 #include "app/exit_codes.h"
 #include "app/machine.h"
+#include "core/error.h"
 #include "cpu/sort/strategy.h"
 
 namespace spindrift::app
@@ -230,7 +231,8 @@ int run_command_line(int argc, char** argv)
     }
     catch (const CLI::ParseError& e)
     {
-        return app.exit(e) == 0 ? kOk : kBadInput;
+        if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+        throw Error(fmt::format("{}; see spindrift --help", e.what()));
     }
     if (app.got_subcommand("run")) return run(run_options);
     if (app.got_subcommand("explain")) return explain(explain_options);

@@ -78,9 +78,8 @@ TEST_F(Command, WrongArgumentsAreBadInput)
     };
     for (const auto& arguments : wrong)
     {
-        const Finished run = run_command(arguments);
-        EXPECT_EQ(run.exit_code, 2) << testing::PrintToString(arguments);
-        EXPECT_NE(run.error, "") << testing::PrintToString(arguments);
+        SCOPED_TRACE(testing::PrintToString(arguments));
+        expect_one_clear_line(run_command(arguments));
     }
 }
 
