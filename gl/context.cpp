@@ -82,15 +82,14 @@ class HeadlessContext final : public Context
             throw Error(egl_error("eglMakeCurrent without a surface"));
     }
 
+    // The display itself is the process's: other contexts may live on it, so it is never terminated.
     void release()
     {
-        if (context_ != EGL_NO_CONTEXT)
-        {
+        if (context_ == EGL_NO_CONTEXT) return;
+        if (eglGetCurrentContext() == context_)
             eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-            eglDestroyContext(display_, context_);
-            context_ = EGL_NO_CONTEXT;
-        }
-        eglTerminate(display_);
+        eglDestroyContext(display_, context_);
+        context_ = EGL_NO_CONTEXT;
     }
 
     EGLDisplay display_;
