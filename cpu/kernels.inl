@@ -52,9 +52,9 @@ SPINDRIFT_HD void advect_in(const WindField& wind, const AdvectJob& job, std::si
         prefetch(wind, job.flakes, i + kPrefetchFlakes, last);
         advector(i, tally);
     }
-    const FlakeAdvector<float, WindField, Turbulent> rest{job.step, wind, job.fall_speed, job.around,
-                                                          job.flakes};
-    for (; i < last; ++i) rest(i, tally);
+    // fewer than a pack: the scalar kernels give the same bits, and need no second copy of the advector here
+    if constexpr (kWidth > 1)
+        if (i < last) kScalarKernels.advect(job, i, last, tally);
 }
 
 template <class WindField>
