@@ -2,10 +2,10 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
+#include "core/number.h"
 #include "core/world.h"
 
 namespace spindrift
@@ -60,7 +60,7 @@ inline void spread_gradients(WindCell* cells, int nx, int ny, int nz, const Vec3
         variance = std::max({variance, c.s11 * c.s11, c.s21 * c.s21 + c.s22 * c.s22,
                              c.s31 * c.s31 + c.s32 * c.s32 + c.s33 * c.s33});
     }
-    const double reach_m = 2 * std::sqrt(static_cast<double>(variance)) * step_s;
+    const double reach_m = 2 * sqrt(static_cast<double>(variance)) * step_s;
     const auto reach = [&](float size_m)
     {
         const double in_cells = reach_m / static_cast<double>(size_m) + 0.5;
