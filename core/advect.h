@@ -36,9 +36,10 @@ struct StepParams
 };
 
 /// Moves one pack of flakes by one step: wind, turbulence, settling, slip, and what stands in the way.
-/// R: float or a SIMD pack of float. Wind: UniformWind, LogWind or GridWind. All variants give the same bits.
-/// Scheme: docs/physics.md "Turbulence", docs/decisions/011-one-relaxation-two-samples.md.
-template <class R, class WindField, bool Turbulent>
+/// R: float or a SIMD pack of float. Resolver: EncounterResolver, or one that calls it out of line. Wind:
+/// UniformWind, LogWind or GridWind. All variants give the same bits. Scheme: docs/physics.md "Turbulence",
+/// docs/decisions/011-one-relaxation-two-samples.md.
+template <class R, class WindField, bool Turbulent, class Resolver = EncounterResolver>
 struct FlakeAdvector
 {
     using Int = IntOf<R>;
@@ -202,7 +203,7 @@ struct FlakeAdvector
         float fall[width];
         std::uint32_t id[width], state[width];
         store(fall, p.fall), store(id, p.id), store(state, p.state);
-        const EncounterResolver resolve{around, step.seed, step.number, substep, Turbulent};
+        const Resolver resolve{around, step.seed, step.number, substep, Turbulent};
         for (; lanes != 0; lanes &= lanes - 1)
         {
             const int l = __builtin_ctz(lanes);

@@ -16,7 +16,7 @@ constexpr std::size_t kWidth = NumberTraits<Real>::width;
 /// So many flakes ahead of the ones that move, the wind cells round them are called into the second-level
 /// cache: straight into the first they stop up its few miss buffers, which took half as long again
 /// (docs/benchmarking.md, advection).
-constexpr std::size_t kPrefetchFlakes = 16;
+constexpr std::size_t kPrefetchFlakes = 64;
 
 template <class WindField>
 SPINDRIFT_HD void prefetch(const WindField&, const FlakeView&, std::size_t, std::size_t)
@@ -40,12 +40,29 @@ SPINDRIFT_HD void prefetch(const GridWind& grid, const FlakeView& flakes, std::s
         }
 }
 
+/// The rare flakes that meet something, out of the way of the others: inlined, their code pushed the pack
+/// loop out of the instruction cache. Its type is local to this translation unit, so nothing of it is shared.
+struct OutOfLineResolver
+{
+    EncounterResolver resolve;
+
+    OutOfLineResolver(const Surroundings& around, std::uint64_t seed, std::uint32_t step,
+                      std::uint32_t substep, bool turbulent)
+        : resolve{around, seed, step, substep, turbulent}
+    {
+    }
+    __attribute__((noinline, cold)) void operator()(Encounter& f, EncounterTally& tally) const
+    {
+        resolve(f, tally);
+    }
+};
+
 template <class WindField, bool Turbulent>
 SPINDRIFT_HD void advect_in(const WindField& wind, const AdvectJob& job, std::size_t first, std::size_t last,
                             EncounterTally& tally)
 {
-    const FlakeAdvector<Real, WindField, Turbulent> advector{job.step, wind, job.fall_speed, job.around,
-                                                             job.flakes};
+    const FlakeAdvector<Real, WindField, Turbulent, OutOfLineResolver> advector{
+        job.step, wind, job.fall_speed, job.around, job.flakes};
     std::size_t i = first;
     for (; i + kWidth <= last; i += kWidth)
     {

@@ -28,12 +28,14 @@ SPINDRIFT_HD __m128 interpolate_quarter(const CellCorners& corner, const float* 
 SPINDRIFT_HD void transpose(__m256 (&r)[8])
 {
     __m256 t[8];
+#pragma GCC unroll 4
     for (int i = 0; i < 4; ++i)
     {
         t[2 * i] = _mm256_unpacklo_ps(r[2 * i], r[2 * i + 1]);
         t[2 * i + 1] = _mm256_unpackhi_ps(r[2 * i], r[2 * i + 1]);
     }
     __m256 u[8];
+#pragma GCC unroll 2
     for (int i = 0; i < 2; ++i)
     {
         u[4 * i] = _mm256_shuffle_ps(t[4 * i], t[4 * i + 2], 0x44);
@@ -41,6 +43,7 @@ SPINDRIFT_HD void transpose(__m256 (&r)[8])
         u[4 * i + 2] = _mm256_shuffle_ps(t[4 * i + 1], t[4 * i + 3], 0x44);
         u[4 * i + 3] = _mm256_shuffle_ps(t[4 * i + 1], t[4 * i + 3], 0xEE);
     }
+#pragma GCC unroll 4
     for (int i = 0; i < 4; ++i)
     {
         r[i] = _mm256_permute2f128_ps(u[i], u[i + 4], 0x20);
@@ -59,6 +62,7 @@ struct Avx2GridLanes
         store(index, p.index);
         Avx2Real w[8];
         corner_weights(p, w);
+#pragma GCC unroll 8
         for (int c = 0; c < 8; ++c) store(weight[c], w[c]);
     }
 };
@@ -85,6 +89,7 @@ SPINDRIFT_HD Air<Avx2Real> interpolate_air(const GridWind& grid, const GridPoint
     transpose(low);
     transpose(high);
     Avx2Real numbers[16];
+#pragma GCC unroll 8
     for (int i = 0; i < 8; ++i) numbers[i] = Avx2Real(low[i]), numbers[8 + i] = Avx2Real(high[i]);
     return air_of_record(numbers);
 }
@@ -109,6 +114,7 @@ SPINDRIFT_HD Vec3<Avx2Real> interpolate_mean(const GridWind& grid, const GridPoi
 SPINDRIFT_HD void transpose(__m512 (&r)[16])
 {
     __m512 t[16];
+#pragma GCC unroll 8
     for (int i = 0; i < 8; ++i)
     {
         t[2 * i] = _mm512_unpacklo_ps(r[2 * i], r[2 * i + 1]);
@@ -116,6 +122,7 @@ SPINDRIFT_HD void transpose(__m512 (&r)[16])
     }
     // u[4 i + c]: column c, c + 4, c + 8, c + 12 of rows 4 i … 4 i + 3, one 128-bit part each
     __m512 u[16];
+#pragma GCC unroll 4
     for (int i = 0; i < 4; ++i)
     {
         u[4 * i] = _mm512_shuffle_ps(t[4 * i], t[4 * i + 2], 0x44);
@@ -123,6 +130,7 @@ SPINDRIFT_HD void transpose(__m512 (&r)[16])
         u[4 * i + 2] = _mm512_shuffle_ps(t[4 * i + 1], t[4 * i + 3], 0x44);
         u[4 * i + 3] = _mm512_shuffle_ps(t[4 * i + 1], t[4 * i + 3], 0xEE);
     }
+#pragma GCC unroll 4
     for (int c = 0; c < 4; ++c)
     {
         const __m512 low01 = _mm512_shuffle_f32x4(u[c], u[4 + c], 0x88);       // parts 0 and 2 of rows 0-7
@@ -146,6 +154,7 @@ struct Avx512GridLanes
         store(index, p.index);
         Avx512Real w[8];
         corner_weights(p, w);
+#pragma GCC unroll 8
         for (int c = 0; c < 8; ++c) store(weight[c], w[c]);
     }
 };
@@ -166,6 +175,7 @@ SPINDRIFT_HD Air<Avx512Real> interpolate_air(const GridWind& grid, const GridPoi
     }
     transpose(rows);
     Avx512Real numbers[16];
+#pragma GCC unroll 16
     for (int i = 0; i < 16; ++i) numbers[i] = Avx512Real(rows[i]);
     return air_of_record(numbers);
 }
