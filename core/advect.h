@@ -38,7 +38,7 @@ struct StepParams
 /// Moves one pack of flakes by one step: wind, turbulence, settling, slip, and what stands in the way.
 /// R: float or a SIMD pack of float. Resolver: EncounterResolver, or one that calls it out of line. Wind:
 /// UniformWind, LogWind or GridWind. All variants give the same bits. Scheme: docs/physics.md "Turbulence",
-/// docs/decisions/011-one-relaxation-two-samples.md.
+/// docs/decisions/006-one-relaxation-two-samples.md.
 template <class R, class WindField, bool Turbulent, class Resolver = EncounterResolver>
 struct FlakeAdvector
 {

@@ -45,7 +45,7 @@ inline void spread_maximum(std::vector<float>& values, std::size_t before, std::
 /// Replaces each cell's gradient by the largest within the reach of a flake's turbulence in one step, twice
 /// the largest sigma times dt. How often a step is cut must not change within the reach of a step: at the
 /// seam between two step lengths their errors do not cancel, and the air would not stay well mixed
-/// (docs/decisions/011).
+/// (docs/decisions/006).
 inline void spread_gradients(WindCell* cells, int nx, int ny, int nz, const Vec3f& cell_m, double step_s)
 {
     const auto x = static_cast<std::size_t>(nx);

@@ -54,6 +54,9 @@ namespace
 
 TEST(Memory, NothingIsAllocatedPerStepOrFrame)
 {
+#if defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "ThreadSanitizer builds start threads of their own (cpu/parallel.h)";
+#endif
     TestRun run(world_with_everything(16384, OnLeave::respawn, true), {2, Simd::automatic});
     View view;
     view.eye = {20, -20, 10};
