@@ -13,11 +13,17 @@ namespace
 std::atomic<bool> counting{false};
 std::atomic<int> allocations{0};
 
-void* allocate(std::size_t bytes)
+// out of line: where gcc inlines one of a pair of operators only, it takes malloc and delete for a mismatch
+__attribute__((noinline)) void* allocate(std::size_t bytes)
 {
     if (counting) ++allocations;
     if (void* p = std::malloc(bytes == 0 ? 1 : bytes)) return p;
     throw std::bad_alloc();
+}
+
+__attribute__((noinline)) void release(void* p)
+{
+    std::free(p);
 }
 
 }  // namespace
@@ -32,19 +38,19 @@ void* operator new[](std::size_t bytes)
 }
 void operator delete(void* p) noexcept
 {
-    std::free(p);
+    release(p);
 }
 void operator delete[](void* p) noexcept
 {
-    std::free(p);
+    release(p);
 }
 void operator delete(void* p, std::size_t) noexcept
 {
-    std::free(p);
+    release(p);
 }
 void operator delete[](void* p, std::size_t) noexcept
 {
-    std::free(p);
+    release(p);
 }
 
 namespace spindrift::cpu::test
