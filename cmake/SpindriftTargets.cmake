@@ -4,11 +4,15 @@
 add_library(spindrift_numerics INTERFACE)
 # The same bits on every backend: contraction off, no errno from sqrt. Never any fast-math.
 target_compile_options(spindrift_numerics INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off;-fno-math-errno>)
+# CMake 3.25 does not know that nvcc speaks C++20.
+target_compile_options(spindrift_numerics INTERFACE
+    $<$<COMPILE_LANGUAGE:CUDA>:-std=c++20;--fmad=false;-Xcompiler=-ffp-contract=off,-fno-math-errno;--extended-lambda>)
 target_compile_features(spindrift_numerics INTERFACE cxx_std_20)
 
 add_library(spindrift_warnings INTERFACE)
 target_compile_options(spindrift_warnings INTERFACE
-    $<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wshadow;-Wconversion;-Wno-sign-conversion;-Wnon-virtual-dtor;-Woverloaded-virtual;-Werror>)
+    $<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wshadow;-Wconversion;-Wno-sign-conversion;-Wnon-virtual-dtor;-Woverloaded-virtual;-Werror>
+    $<$<COMPILE_LANGUAGE:CUDA>:-Werror=all-warnings;-Xcompiler=-Wall,-Wextra>)
 
 if(SPINDRIFT_SANITIZE)
     add_compile_options(-fsanitize=${SPINDRIFT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)

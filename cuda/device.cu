@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "cuda/device.h"
+
+#include <cuda_runtime_api.h>
+
+#include "cuda/check.h"
+
+namespace spindrift::gpu
+{
+
+Devices find_devices()
+{
+    Devices devices;
+    cudaRuntimeGetVersion(&devices.runtime_version);
+    cudaDriverGetVersion(&devices.driver_version);
+    int count = 0;
+    const cudaError_t code = cudaGetDeviceCount(&count);
+    if (code != cudaSuccess) devices.none_because = error_text(code);
+    for (int ordinal = 0; code == cudaSuccess && ordinal < count; ++ordinal)
+    {
+        cudaDeviceProp properties{};
+        if (const cudaError_t asked = cudaGetDeviceProperties(&properties, ordinal); asked != cudaSuccess)
+        {
+            devices.none_because = error_text(asked);
+            continue;
+        }
+        devices.list.push_back({ordinal, properties.name, properties.major, properties.minor,
+                                properties.totalGlobalMem, properties.multiProcessorCount});
+    }
+    cudaGetLastError();
+    return devices;
+}
+
+}  // namespace spindrift::gpu
