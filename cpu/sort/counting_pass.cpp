@@ -25,19 +25,30 @@ struct alignas(64) OwnLine  // so that threads do not write to one cache line
 // The loops below are where a sort spends its time. Inlined into a task of TBB they run out of registers.
 #define SPINDRIFT_HOT_LOOP __attribute__((noinline))
 
+// Runs lie in an outer cache or in memory; what fetches ahead by itself is too late for this loop.
+void fetch_ahead(const std::uint64_t* pair)
+{
+    constexpr std::uintptr_t kAhead_bytes = 1024;
+    __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(pair) + kAhead_bytes));
+}
+
+// Calls take(pair) for each of a run.
+template <class Take>
+void for_each_pair(const std::uint64_t* first, const std::uint64_t* last, const Take& take)
+{
+    for (; last - first >= 8; first += 8)
+    {
+        fetch_ahead(first);
+        for (int i = 0; i < 8; ++i) take(first[i]);
+    }
+    for (; first != last; ++first) take(*first);
+}
+
 SPINDRIFT_HOT_LOOP void count_run(const std::uint64_t* first, const std::uint64_t* last, Digit digit,
                                   std::uint32_t* histogram)
 {
     std::fill_n(histogram, digit.values(), 0U);
-    for (; last - first >= 4; first += 4)
-    {
-        const std::uint64_t a = first[0], b = first[1], c = first[2], d = first[3];
-        ++histogram[digit.of(a)];
-        ++histogram[digit.of(b)];
-        ++histogram[digit.of(c)];
-        ++histogram[digit.of(d)];
-    }
-    for (; first != last; ++first) ++histogram[digit.of(*first)];
+    for_each_pair(first, last, [=](std::uint64_t pair) { ++histogram[digit.of(pair)]; });
 }
 
 // As count_run; returns the bits in which a pair of the run differs from `sample`.
@@ -47,46 +58,51 @@ SPINDRIFT_HOT_LOOP std::uint64_t count_run_and_compare(const std::uint64_t* firs
 {
     std::fill_n(histogram, digit.values(), 0U);
     std::uint64_t differing = 0;
-    for (; last - first >= 4; first += 4)
-    {
-        const std::uint64_t a = first[0], b = first[1], c = first[2], d = first[3];
-        ++histogram[digit.of(a)];
-        ++histogram[digit.of(b)];
-        ++histogram[digit.of(c)];
-        ++histogram[digit.of(d)];
-        differing |= (a ^ sample) | (b ^ sample) | (c ^ sample) | (d ^ sample);
-    }
-    for (; first != last; ++first)
-    {
-        ++histogram[digit.of(*first)];
-        differing |= *first ^ sample;
-    }
+    for_each_pair(first, last,
+                  [=, &differing](std::uint64_t pair)
+                  {
+                      ++histogram[digit.of(pair)];
+                      differing |= pair ^ sample;
+                  });
     return differing;
 }
 
-// A pair goes to the next place of its value. The line after that place is fetched early: without it each
-// first store to a line waits for the line, and stores retire in order (2.5x slower on a million pairs, see
-// docs/decisions). A prefetch never faults, so it may point past the end.
+// A pair goes to the next place of its value. Places are taken kAhead pairs before they are written, and
+// their lines fetched meanwhile: stores retire in order, so each store to a line that is not there would hold
+// up all that follow. Two places share a word of the queue: one store less for each pair.
 SPINDRIFT_HOT_LOOP void scatter_run(const std::uint64_t* first, const std::uint64_t* last, std::uint64_t* to,
                                     Digit digit, std::uint32_t* places)
 {
-    constexpr std::uintptr_t kAhead_bytes = 128;
-    const auto put = [=](std::uint64_t pair)
+    constexpr std::size_t kAhead = 64;
+    std::array<std::uint64_t, kAhead / 2> queue;
+    const auto place_of = [=](std::uint64_t pair)
     {
-        std::uint64_t* const place = to + places[digit.of(pair)]++;
-        *place = pair;
-        __builtin_prefetch(
-            reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(place) + kAhead_bytes), 1);
+        const std::uint64_t place = places[digit.of(pair)]++;
+        __builtin_prefetch(to + place, 1);
+        return place;
     };
-    for (; last - first >= 4; first += 4)
+    const auto take_two = [&](std::size_t i)
     {
-        const std::uint64_t a = first[0], b = first[1], c = first[2], d = first[3];
-        put(a);
-        put(b);
-        put(c);
-        put(d);
+        const std::uint64_t place = place_of(first[i]);
+        queue[i / 2 % queue.size()] = place | place_of(first[i + 1]) << 32;
+    };
+    const auto put_two = [&](std::size_t i)
+    {
+        const std::uint64_t two = queue[i / 2 % queue.size()];
+        to[static_cast<std::uint32_t>(two)] = first[i];
+        to[two >> 32] = first[i + 1];
+    };
+    const auto n = static_cast<std::size_t>(last - first);
+    const std::size_t even = n / 2 * 2;
+    const std::size_t ahead = std::min(even, kAhead);
+    for (std::size_t i = 0; i < ahead; i += 2) take_two(i);
+    for (std::size_t i = ahead; i < even; i += 2)
+    {
+        put_two(i - ahead);
+        take_two(i);
     }
-    for (; first != last; ++first) put(*first);
+    for (std::size_t i = even - ahead; i < even; i += 2) put_two(i);
+    if (even != n) to[place_of(first[even])] = first[even];
 }
 
 // Few values: one thread is quicker than a fork.
@@ -131,12 +147,12 @@ void places_in_blocks(const Chunks& chunks, std::size_t values, std::uint32_t* h
 
 }  // namespace
 
-Chunks::Chunks(std::size_t n, std::size_t shortest, std::size_t most)
-    : n_(n),
-      count_(std::clamp<std::size_t>(
-          std::min(n / shortest, static_cast<std::size_t>(tbb::this_task_arena::max_concurrency())), 1,
-          std::min(most, kMostChunks)))
+Chunks::Chunks(std::size_t n, const ChunkLimits& limits) : n_(n)
 {
+    const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+    const std::size_t for_each_thread = std::min(n / (threads * limits.shortest), limits.per_thread);
+    const std::size_t wanted = for_each_thread > 0 ? for_each_thread * threads : n / limits.shortest;
+    count_ = std::clamp<std::size_t>(wanted, 1, std::min(limits.most, kMostChunks));
 }
 
 void count_digit(const std::uint64_t* pairs, const Chunks& chunks, Digit digit, std::uint32_t* histograms)

@@ -19,11 +19,19 @@ struct Digit
     bool operator==(const Digit&) const = default;
 };
 
-/// n pairs cut into equal runs, one per thread of the current TBB arena, fewer if they would be short.
+struct ChunkLimits
+{
+    std::size_t shortest;    ///< pairs, unless there are fewer in all
+    std::size_t per_thread;  ///< most for each thread: more than one lets a fast core help a slow one
+    std::size_t most;        ///< in all, at most 64
+};
+
+/// n pairs cut into equal runs, as many for each thread of the current TBB arena, or fewer runs than threads
+/// if they would be short.
 class Chunks
 {
   public:
-    Chunks(std::size_t n, std::size_t shortest, std::size_t most);
+    Chunks(std::size_t n, const ChunkLimits& limits);
 
     std::size_t count() const { return count_; }
     std::size_t begin(std::size_t chunk) const { return n_ / count_ * chunk + n_ % count_ * chunk / count_; }

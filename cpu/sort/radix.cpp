@@ -9,7 +9,7 @@
 #include "cpu/sort/strategy.h"
 
 // Least significant digit first: each pass keeps the order that the passes before it made, so the whole is
-// stable. The choice of digits is measured in docs/decisions/003-radix-sort.md.
+// stable. The choice of digits is measured in docs/decisions/004-radix-sort.md.
 
 namespace spindrift::cpu::sorts
 {
@@ -18,8 +18,8 @@ namespace
 {
 
 constexpr int kKeyShift = 32;
-constexpr std::size_t kShortestChunk = 4096;
-constexpr std::size_t kMostChunks = 64;
+// Threads that write into one line of output wait for each other; shorter chunks share too many.
+constexpr ChunkLimits kChunks{.shortest = 65536, .per_thread = 4, .most = 64};
 
 /// The passes over the span of key bits that are set in `differing`: as few as the widest digit allows, of
 /// even width; at least one.
@@ -49,13 +49,11 @@ class Plan
     int count_ = 0;
 };
 
-// Wide digits save passes while their lines of output (one per value and thread) and the pages behind them
-// stay in the caches.
+// Wide digits save passes, unless the counters cost more than the pairs.
 int widest_digit_bits(std::size_t n)
 {
     constexpr std::size_t kFewPairs = 4096;
-    constexpr std::size_t kManyPairs = std::size_t{3} << 19;
-    return n < kFewPairs || n > kManyPairs ? 8 : 12;
+    return n < kFewPairs ? 8 : 12;
 }
 
 std::uint32_t differing_bits_of_some(const SortJob& job)
@@ -94,7 +92,7 @@ std::uint64_t* sort(const SortJob& job)
         insertion_sort(job.pairs, job.n);
         return job.pairs;
     }
-    const Chunks chunks(job.n, kShortestChunk, kMostChunks);
+    const Chunks chunks(job.n, kChunks);
     const int widest = widest_digit_bits(job.n);
     const HistogramLease lease(chunks.count() << widest);
 
