@@ -25,46 +25,19 @@ struct alignas(64) OwnLine  // so that threads do not write to one cache line
 // The loops below are where a sort spends its time. Inlined into a task of TBB they run out of registers.
 #define SPINDRIFT_HOT_LOOP __attribute__((noinline))
 
-// Runs lie in an outer cache or in memory; what fetches ahead by itself is too late for this loop.
-void fetch_ahead(const std::uint64_t* pair)
-{
-    constexpr std::uintptr_t kAhead_bytes = 1024;
-    __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(pair) + kAhead_bytes));
-}
-
-// Calls take(pair) for each of a run.
-template <class Take>
-void for_each_pair(const std::uint64_t* first, const std::uint64_t* last, const Take& take)
-{
-    for (; last - first >= 8; first += 8)
-    {
-        fetch_ahead(first);
-        for (int i = 0; i < 8; ++i) take(first[i]);
-    }
-    for (; first != last; ++first) take(*first);
-}
-
 SPINDRIFT_HOT_LOOP void count_run(const std::uint64_t* first, const std::uint64_t* last, Digit digit,
                                   std::uint32_t* histogram)
 {
+    // What fetches ahead by itself is too late for this loop. A prefetch never faults.
+    constexpr std::uintptr_t kAhead_bytes = 1024;
     std::fill_n(histogram, digit.values(), 0U);
-    for_each_pair(first, last, [=](std::uint64_t pair) { ++histogram[digit.of(pair)]; });
-}
-
-// As count_run; returns the bits in which a pair of the run differs from `sample`.
-SPINDRIFT_HOT_LOOP std::uint64_t count_run_and_compare(const std::uint64_t* first, const std::uint64_t* last,
-                                                       std::uint64_t sample, Digit digit,
-                                                       std::uint32_t* histogram)
-{
-    std::fill_n(histogram, digit.values(), 0U);
-    std::uint64_t differing = 0;
-    for_each_pair(first, last,
-                  [=, &differing](std::uint64_t pair)
-                  {
-                      ++histogram[digit.of(pair)];
-                      differing |= pair ^ sample;
-                  });
-    return differing;
+    for (; last - first >= 8; first += 8)
+    {
+        __builtin_prefetch(
+            reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(first) + kAhead_bytes));
+        for (int i = 0; i < 8; ++i) ++histogram[digit.of(first[i])];
+    }
+    for (; first != last; ++first) ++histogram[digit.of(*first)];
 }
 
 // A pair goes to the next place of its value. Places are taken kAhead pairs before they are written, and
@@ -165,17 +138,17 @@ void count_digit(const std::uint64_t* pairs, const Chunks& chunks, Digit digit, 
                             });
 }
 
-std::uint64_t count_digit_and_compare(const std::uint64_t* pairs, const Chunks& chunks, Digit digit,
-                                      std::uint32_t* histograms)
+std::uint64_t differing_bits(const std::uint64_t* pairs, const Chunks& chunks)
 {
     std::array<OwnLine, kMostChunks> differing{};
     const std::uint64_t sample = pairs[0];
     parallel_for_each_index(chunks.count(),
                             [&](std::size_t chunk)
                             {
-                                differing[chunk].bits = count_run_and_compare(
-                                    pairs + chunks.begin(chunk), pairs + chunks.end(chunk), sample, digit,
-                                    histograms + chunk * digit.values());
+                                std::uint64_t bits = 0;
+                                for (std::size_t i = chunks.begin(chunk); i < chunks.end(chunk); ++i)
+                                    bits |= pairs[i] ^ sample;
+                                differing[chunk].bits = bits;
                             });
     std::uint64_t all = 0;
     for (const OwnLine& line : differing) all |= line.bits;

@@ -16,7 +16,6 @@ struct Digit
     std::size_t values() const { return std::size_t{1} << bits; }
     std::uint64_t mask() const { return (std::uint64_t{1} << bits) - 1; }
     std::uint64_t of(std::uint64_t pair) const { return (pair >> shift) & mask(); }
-    bool operator==(const Digit&) const = default;
 };
 
 struct ChunkLimits
@@ -42,16 +41,15 @@ class Chunks
     std::size_t count_;
 };
 
+/// The bits in which the pairs differ at all; n > 0.
+std::uint64_t differing_bits(const std::uint64_t* pairs, const Chunks& chunks);
+
 /// The stable move of pairs into the order of one digit, in three parallel steps over the same chunks.
 /// `histograms` holds chunks.count() times digit.values() counters, one histogram after the other. n < 2^32.
 /// The outcome does not depend on the number of chunks.
 
 /// Counts the digit's values chunk by chunk.
 void count_digit(const std::uint64_t* pairs, const Chunks& chunks, Digit digit, std::uint32_t* histograms);
-
-/// The same, a sixth slower; returns the bits in which the pairs differ at all.
-std::uint64_t count_digit_and_compare(const std::uint64_t* pairs, const Chunks& chunks, Digit digit,
-                                      std::uint32_t* histograms);
 
 /// Turns counts into the place of the next pair of each value and chunk.
 void counts_to_places(const Chunks& chunks, Digit digit, std::uint32_t* histograms);

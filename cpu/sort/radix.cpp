@@ -96,19 +96,15 @@ std::uint64_t* sort(const SortJob& job)
     const int widest = widest_digit_bits(job.n);
     const HistogramLease lease(chunks.count() << widest);
 
-    // Bits in which no key differs need no pass. A few keys say whether leaving them out could save one; only
-    // then does the first count, slower for it, look at all keys.
+    // Bits in which no key differs need no pass. A few keys say whether looking at all of them could save
+    // one.
     const std::uint32_t all_bits = ~0U >> (32 - job.key_bits);
     Plan plan(all_bits, widest);
-    const Plan hoped_for(differing_bits_of_some(job), widest);
-    bool counted = false;
-    if (hoped_for.count() < plan.count())
+    if (Plan(differing_bits_of_some(job), widest).count() < plan.count())
     {
-        const Digit first = hoped_for[0];
-        const std::uint64_t differing = count_digit_and_compare(job.pairs, chunks, first, lease.counters());
-        if (differing >> kKeyShift == 0) return job.pairs;
-        plan = Plan(static_cast<std::uint32_t>(differing >> kKeyShift), widest);
-        counted = plan[0] == first;
+        const auto differing = static_cast<std::uint32_t>(differing_bits(job.pairs, chunks) >> kKeyShift);
+        if (differing == 0) return job.pairs;
+        plan = Plan(differing, widest);
     }
 
     std::uint64_t* from = job.pairs;
@@ -116,8 +112,7 @@ std::uint64_t* sort(const SortJob& job)
     for (std::size_t pass = 0; pass < plan.count(); ++pass)
     {
         const Digit digit = plan[pass];
-        if (!counted) count_digit(from, chunks, digit, lease.counters());
-        counted = false;
+        count_digit(from, chunks, digit, lease.counters());
         if (all_in_one_value(chunks, digit, lease.counters(), from[0], job.n)) continue;
         counts_to_places(chunks, digit, lease.counters());
         scatter_by_digit(from, to, chunks, digit, lease.counters());
