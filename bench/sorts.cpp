@@ -16,6 +16,7 @@
 #include "bench/pinned_threads.h"
 #include "bench/sort_keys.h"
 #include "bench/timing.h"
+#include "cpu/huge_pages.h"
 #include "cpu/sort/strategy.h"
 
 // Rows sort/PATTERN/SIZE/STRATEGY[/BITS-bit]. All rows of one pattern and size are measured together,
@@ -88,6 +89,8 @@ class Comparison
     Comparison(KeyPattern pattern, std::size_t n)
         : n_(n), source_(pattern, n), pairs_(n), scratch_(n), contenders_(contenders())
     {
+        for (auto* array : {&pairs_, &scratch_})  // as the program's draw list
+            cpu::ask_for_huge_pages(array->data(), n * sizeof(std::uint64_t));
         sort_ms_.resize(contenders_.size());
         floor_ms_.resize(contenders_.size());
         measure();
