@@ -46,13 +46,23 @@ struct SortSettings
     int depth_bits = 32;             ///< 32, 24 or 16
 };
 
-/// Moves and orders the flakes of one World. Implementations: cpu::CpuBackend; a CUDA one comes beside it.
+/// Moves and orders the flakes of one World. Implementations: cpu::CpuBackend, gpu::CudaBackend.
 class Backend
 {
   public:
     virtual ~Backend() = default;
 
     virtual std::string name() const = 0;  ///< "cpu (avx512, 2 threads)"
+
+    /// Takes the flakes' memory from GL: between open() and close() the backend writes it and GL must not
+    /// read. What needs the memory opens it by itself. A backend that shares memory with GL has nothing to
+    /// do.
+    virtual void open() {}
+    /// Gives the flakes, and the list that prepare() returned, to whoever draws.
+    virtual void close(const DrawList&) {}
+    /// Waits until all that was asked for is done; counts() are those of step_number() afterwards. A backend
+    /// whose calls return only when they are done has nothing to do.
+    virtual void finish() {}
 
     /// Advances by one step of World::step_s: emission, wind, turbulence, settling, contacts, borders.
     virtual void step() = 0;
@@ -61,6 +71,7 @@ class Backend
     /// id. Throws Error for a strategy that this backend has not got.
     virtual DrawList prepare(const View& view, const SortSettings& sort) = 0;
 
+    /// The newest that are known; a device may be some steps ahead of them until finish().
     virtual FlakeCounts counts() const = 0;
     virtual std::uint64_t step_number() const = 0;
     virtual std::uint64_t slots_used() const = 0;  ///< holes included
