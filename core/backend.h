@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/flake.h"
+#include "core/flake_extent.h"
 #include "core/vec.h"
 #include "core/view.h"
 
@@ -78,6 +79,9 @@ class Backend
 
     /// Order-independent 64-bit hash of every alive flake's state and of the counts.
     virtual std::uint64_t state_hash() const = 0;
+
+    /// Bounds of the living flakes, and how many have run away (there must be none). Waits.
+    virtual FlakeExtent extent() const = 0;
 
     virtual Snapshot save() const = 0;
     /// Throws Error if the snapshot belongs to another World or does not fit.
