@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <optional>
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@
 #include "core/check_world.h"
 #include "core/error.h"
 #include "core/flake_extent.h"
-#include "core/snapshot_check.h"
+#include "core/snapshot.h"
 #include "core/state_hash.h"
 #include "core/step_state.h"
 #include "core/world_hash.h"
@@ -25,7 +26,6 @@
 #include "cpu/held_world.h"
 #include "cpu/parallel.h"
 #include "cpu/simd.h"
-#include "cpu/snapshot.h"
 
 namespace spindrift::cpu
 {
@@ -284,7 +284,9 @@ void CpuBackend::restore(const Snapshot& s)
 {
     const World& world = world_.data();
     check_snapshot(s, hash_, world.capacity, world.emitters.size(), anchors_);
-    put_arrays(s, flakes_);
+    const auto arrays = flake_words(flakes_);
+    for (std::size_t a = 0; a < arrays.size(); ++a)
+        if (!s.arrays[a].empty()) std::memcpy(arrays[a], s.arrays[a].data(), 4 * s.arrays[a].size());
     emission_.restore(s.emitter_state.data());
     anchors_.restore(s.emitter_state.data() + 2 * world.emitters.size());
     state_ = {s.counts, s.step, s.next_id, s.counts.alive};
