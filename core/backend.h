@@ -77,6 +77,8 @@ class Backend
     /// Fills the draw list: culls against the view, makes depth keys, sorts far to near. Equal keys order by
     /// id. Throws Error for a strategy that this backend has not got.
     virtual DrawList prepare(const View& view, const SortSettings& sort) = 0;
+    /// Names of the strategies that prepare() takes.
+    virtual std::vector<std::string> sorts() const = 0;
 
     /// The newest that are known; a device may be some steps ahead of them until finish().
     virtual FlakeCounts counts() const = 0;

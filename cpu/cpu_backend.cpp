@@ -25,6 +25,7 @@
 #include "cpu/emission.h"
 #include "cpu/held_world.h"
 #include "cpu/parallel.h"
+#include "cpu/reorder.h"
 #include "cpu/simd.h"
 
 namespace spindrift::cpu
@@ -79,7 +80,9 @@ class CpuBackend final : public Backend
           anchors_(world.anchors),
           emission_(world),
           compact_(world.capacity),
+          list_memory_(draw_list),
           list_(draw_list, world.capacity),
+          reorder_every_(world.wind.kind == WindKind::grid ? options.reorder_every_steps : 0),
           regions_(std::max<std::size_t>(world.emitters.size(), 1)),
           tallies_(chunk_count(world.capacity)),
           lost_(chunk_count(world.capacity) * world.emitters.size()),
@@ -92,7 +95,9 @@ class CpuBackend final : public Backend
 
     std::string name() const override
     {
-        return fmt::format("cpu ({}, {} thread{})", simd_name(simd_), threads_, threads_ == 1 ? "" : "s");
+        return fmt::format(
+            "cpu ({}, {} thread{}{})", simd_name(simd_), threads_, threads_ == 1 ? "" : "s",
+            reorder_every_ > 0 ? fmt::format(", re-ordered every {} steps", reorder_every_) : "");
     }
 
     void step() override
@@ -107,6 +112,13 @@ class CpuBackend final : public Backend
         DrawList result;
         arena_.execute([&] { result = prepare_in_arena(view, sort); });
         return result;
+    }
+
+    std::vector<std::string> sorts() const override
+    {
+        std::vector<std::string> names;
+        for (const SortStrategy& strategy : sort_strategies()) names.emplace_back(strategy.name);
+        return names;
     }
 
     FlakeCounts counts() const override { return state_.counts; }
@@ -124,6 +136,7 @@ class CpuBackend final : public Backend
     void emit();
     void advect();
     void compact();
+    void reorder();
     DrawList prepare_in_arena(const View& view, const SortSettings& sort);
     void place_regions(double time_s);
     template <class Part, class OfChunk>
@@ -140,7 +153,9 @@ class CpuBackend final : public Backend
     Anchors anchors_;
     Emission emission_;
     Compactor compact_;
+    DrawListView list_memory_;
     DrawListMaker list_;
+    std::uint32_t reorder_every_;  ///< steps; 0: never
     std::vector<Region> regions_;
     std::vector<EncounterTally> tallies_;
     std::vector<std::uint32_t> lost_;  ///< by chunk and emitter
@@ -166,7 +181,10 @@ void CpuBackend::step_in_arena()
     place_regions(time_of(state_.step + 1));
     advect();
     ++state_.step;
-    if (state_.has_many_holes()) compact();
+    if (reorder_every_ > 0 && state_.step % reorder_every_ == 0)
+        reorder();
+    else if (state_.has_many_holes())
+        compact();
 }
 
 void CpuBackend::emit()
@@ -213,6 +231,13 @@ void CpuBackend::compact()
     state_.close_holes();
 }
 
+void CpuBackend::reorder()
+{
+    const StageTimer timer(times_.compact);
+    reorder_by_cell({job_.grid, flakes_}, state_.used, state_.counts.alive, list_memory_);
+    state_.close_holes();
+}
+
 DrawList CpuBackend::prepare_in_arena(const View& view, const SortSettings& sort)
 {
     const SortStrategy& strategy = list_.strategy(sort);
@@ -224,6 +249,9 @@ DrawList CpuBackend::prepare_in_arena(const View& view, const SortSettings& sort
     result.culled = state_.counts.alive - result.count;
     const StageTimer timer(times_.sort);
     list_.sort(strategy, sort, result);
+    if (reorder_every_ > 0 && result.sorted)
+        order_ties(result.in_scratch ? list_memory_.scratch : list_memory_.pairs, result.count, flakes_.id,
+                   static_cast<std::uint32_t>(state_.next_id));
     return result;
 }
 

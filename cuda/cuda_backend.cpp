@@ -64,6 +64,8 @@ class CudaBackend final : public Backend
     void step() override;
     DrawList prepare(const View& view, const SortSettings& sort) override;
 
+    std::vector<std::string> sorts() const override { return DrawSort::names(); }
+
     FlakeCounts counts() const override { return late_.newest().state.counts; }
     std::uint64_t step_number() const override { return step_; }
     std::uint64_t slots_used() const override { return late_.newest().state.used; }

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "core/backend.h"
 #include "cuda/buffer.h"
@@ -16,6 +18,7 @@ class DrawSort
   public:
     explicit DrawSort(std::size_t capacity);
 
+    static std::vector<std::string> names() { return {"none", "radix"}; }
     /// Throws Error for a strategy or key width that there is not.
     static void check_settings(const SortSettings& settings);
 
