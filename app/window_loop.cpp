@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "app/frame_drawer.h"
-#include "cpu/sort/strategy.h"
 #include "gl/window.h"
 #include "scene/make_world.h"
 
@@ -25,13 +24,11 @@ using Clock = std::chrono::steady_clock;
 /// A frame that took longer than this slows the snow down instead of asking for ever more steps.
 constexpr double kLongestCatchUp_s = 0.1;
 
-std::string next_strategy(const std::string& now)
+std::string next_strategy(const Backend& backend, const std::string& now)
 {
-    const auto table = cpu::sort_strategies();
-    const auto found =
-        std::find_if(table.begin(), table.end(), [&](const cpu::SortStrategy& s) { return s.name == now; });
-    const auto next = found == table.end() || found + 1 == table.end() ? table.begin() : found + 1;
-    return std::string(next->name);
+    const std::vector<std::string> names = backend.sorts();
+    const auto found = std::find(names.begin(), names.end(), now);
+    return found == names.end() || found + 1 == names.end() ? names.front() : *(found + 1);
 }
 
 /// Indices of World::anchors that stand for the camera.
@@ -66,7 +63,8 @@ class WindowRun
         if (!window_.paused()) time_s_ += std::min(passed_s, kLongestCatchUp_s);
         if (window_.step_once())
             time_s_ = static_cast<double>(simulator_.backend().step_number() + 1) * run_.input.world.step_s;
-        if (window_.next_sort()) drawer_.set_sort(next_strategy(drawer_.sort().strategy));
+        if (window_.next_sort())
+            drawer_.set_sort(next_strategy(simulator_.backend(), drawer_.sort().strategy));
         const View view = window_.view(scene::camera_at(run_.input.scene, time_s_));
         carry_skies(view);
         // The margin forgives rounding, as in FrameClock.
@@ -140,7 +138,7 @@ void draw_in_window(RunState& run)
     options.title = "Spindrift - " + run.input.scene.name;
     gl::Window window(options);
     run.report.gl = window.info();
-    const auto simulator = start_simulator(run, make_drawn_memory(run));
+    const auto simulator = start_simulator(run, Drawing::on);
     warm_up(run, *simulator, make_clock(run.input, simulator->backend().step_number()).steps_before(0));
     WindowRun shown(run, window, *simulator);
     const std::optional<int> frames = run.options.overrides.frames;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/flake.h"
+#include "core/flake_extent.h"
 #include "core/vec.h"
 #include "core/view.h"
 
@@ -34,10 +35,16 @@ struct DrawList
     bool sorted = false;
 };
 
-/// Milliseconds of the newest call, by stage.
+/// A stage that nobody timed.
+inline constexpr double kNotMeasured = __builtin_nan("");
+
+/// Milliseconds of the newest call whose times are known, by stage; or kNotMeasured. On a device they are the
+/// device's own.
 struct StageTimes
 {
-    double emit = 0, advect = 0, compact = 0, cull = 0, sort = 0;
+    double emit = kNotMeasured, advect = kNotMeasured, compact = kNotMeasured;
+    double step = kNotMeasured;  ///< the three together, where the clock is not the caller's
+    double cull = kNotMeasured, sort = kNotMeasured;
 };
 
 struct SortSettings
@@ -46,7 +53,7 @@ struct SortSettings
     int depth_bits = 32;             ///< 32, 24 or 16
 };
 
-/// Moves and orders the flakes of one World. Implementations: cpu::CpuBackend; a CUDA one comes beside it.
+/// Moves and orders the flakes of one World. Implementations: cpu::CpuBackend, gpu::CudaBackend.
 class Backend
 {
   public:
@@ -54,19 +61,35 @@ class Backend
 
     virtual std::string name() const = 0;  ///< "cpu (avx512, 2 threads)"
 
+    /// Takes the flakes' memory from GL: between open() and close() the backend writes it and GL must not
+    /// read. What needs the memory opens it by itself. A backend that shares memory with GL has nothing to
+    /// do.
+    virtual void open() {}
+    /// Gives the flakes, and the list that prepare() returned, to whoever draws.
+    virtual void close(const DrawList&) {}
+    /// Waits until all that was asked for is done; counts() are those of step_number() afterwards. A backend
+    /// whose calls return only when they are done has nothing to do.
+    virtual void finish() {}
+
     /// Advances by one step of World::step_s: emission, wind, turbulence, settling, contacts, borders.
     virtual void step() = 0;
 
     /// Fills the draw list: culls against the view, makes depth keys, sorts far to near. Equal keys order by
     /// id. Throws Error for a strategy that this backend has not got.
     virtual DrawList prepare(const View& view, const SortSettings& sort) = 0;
+    /// Names of the strategies that prepare() takes.
+    virtual std::vector<std::string> sorts() const = 0;
 
+    /// The newest that are known; a device may be some steps ahead of them until finish().
     virtual FlakeCounts counts() const = 0;
     virtual std::uint64_t step_number() const = 0;
     virtual std::uint64_t slots_used() const = 0;  ///< holes included
 
     /// Order-independent 64-bit hash of every alive flake's state and of the counts.
     virtual std::uint64_t state_hash() const = 0;
+
+    /// Bounds of the living flakes, and how many have run away (there must be none). Waits.
+    virtual FlakeExtent extent() const = 0;
 
     virtual Snapshot save() const = 0;
     /// Throws Error if the snapshot belongs to another World or does not fit.
