@@ -207,8 +207,10 @@ void add_run(CLI::App& app, RunOptions& options)
     static const std::map<std::string, Interop> kInterop = {
         {"auto", Interop::automatic}, {"on", Interop::on}, {"off", Interop::off}};
     command
-        .add_option("--interop", options.interop,
-                    "Simulate in the memory that GL draws from: auto, on, or off (copy each frame)")
+        .add_option(
+            "--interop", options.interop,
+            "Simulate in the memory that GL draws from: auto (where it works), on (or fail), off (copy "
+            "each frame)")
         ->type_name("I")
         ->transform(CLI::Transformer(kInterop).description(""))
         ->group(machine);
