@@ -42,8 +42,9 @@ struct StageTimes
 
 struct SortSettings
 {
-    std::string strategy = "radix";  ///< a name from the backend's table
-    int depth_bits = 32;             ///< 32, 24 or 16
+    std::string strategy = "auto";  ///< a name from the backend's table; auto: its exact sort of general use
+    int depth_bits = 32;            ///< 32, 24 or 16
+    int passes_per_frame = 8;       ///< steps that a sort over frames takes; at least 1
 };
 
 /// Moves and orders the flakes of one World. Implementations: cpu::CpuBackend; a CUDA one comes beside it.

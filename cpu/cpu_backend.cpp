@@ -219,6 +219,7 @@ void CpuBackend::compact()
 {
     const StageTimer timer(times_.compact);
     used_ = compact_(flakes_, used_);
+    list_.slots_renumbered();
 }
 
 DrawList CpuBackend::prepare_in_arena(const View& view, const SortSettings& sort)
@@ -231,7 +232,7 @@ DrawList CpuBackend::prepare_in_arena(const View& view, const SortSettings& sort
     }
     result.culled = counts_.alive - result.count;
     const StageTimer timer(times_.sort);
-    list_.sort(strategy, sort, result);
+    list_.sort(strategy, sort, view, result);
     return result;
 }
 
@@ -284,6 +285,7 @@ void CpuBackend::restore(const Snapshot& s)
     next_id_ = s.next_id;
     counts_ = s.counts;
     used_ = s.counts.alive;
+    list_.slots_renumbered();
 }
 
 }  // namespace
