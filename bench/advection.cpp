@@ -9,7 +9,7 @@
 #include <benchmark/benchmark.h>
 #include <tbb/task_arena.h>
 
-#include "bench/timing.h"
+#include "measure/timing.h"
 #include "core/world.h"
 #include "cpu/cpu_backend.h"
 

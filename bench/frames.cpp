@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/drawn_scene.h"
-#include "bench/timing.h"
+#include "measure/timing.h"
 #include "image/compare.h"
 
 // Rows frame/SCENE/SIZE/FLAKES: a whole frame (simulation steps, culling, sort, every drawing pass until the

@@ -13,9 +13,9 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include "bench/pinned_threads.h"
-#include "bench/sort_keys.h"
-#include "bench/timing.h"
+#include "measure/pinned_threads.h"
+#include "measure/sort_keys.h"
+#include "measure/timing.h"
 #include "cpu/sort/strategy.h"
 
 // Rows sort/PATTERN/SIZE/STRATEGY[/BITS-bit]. All rows of one pattern and size are measured together,

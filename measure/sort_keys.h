@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace spindrift::bench
+namespace spindrift::measure
 {
 
 enum class KeyPattern
@@ -41,4 +41,4 @@ class PairSource
     std::vector<float> x_, y_, z_;  // m; the cloud of the camera sweep
 };
 
-}  // namespace spindrift::bench
+}  // namespace spindrift::measure

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/sort_keys.h"
+#include "measure/sort_keys.h"
 
 #include <algorithm>
 #include <bit>
@@ -8,7 +8,7 @@
 #include <random>
 #include <utility>
 
-namespace spindrift::bench
+namespace spindrift::measure
 {
 
 namespace
@@ -109,4 +109,4 @@ std::size_t PairSource::sweep_camera()
     return seen;
 }
 
-}  // namespace spindrift::bench
+}  // namespace spindrift::measure
