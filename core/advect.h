@@ -54,7 +54,8 @@ struct FlakeAdvector
     FlakeView flakes;
 
     /// Slots [first, first + width).
-    SPINDRIFT_HD void operator()(std::size_t first, EncounterTally& tally) const
+    template <class Tally>
+    SPINDRIFT_HD void operator()(std::size_t first, Tally& tally) const
     {
         const UInt state = load<UInt>(flakes.state + first);
         Mask alive = (state & UInt(0xFFU)) == UInt(0U);
@@ -181,8 +182,9 @@ struct FlakeAdvector
 
     /// Puts the moving lanes at the end of their path, or where what they met leaves them. Returns who is
     /// still alive.
+    template <class Tally>
     SPINDRIFT_HD Mask arrive(Pack& p, const Move& m, const Mask& moving, const Mask& alive,
-                             std::uint32_t substep, EncounterTally& tally) const
+                             std::uint32_t substep, Tally& tally) const
     {
         const Vec3<R> from = p.x;
         p.x = select(moving, from + m.path, from);
@@ -194,9 +196,18 @@ struct FlakeAdvector
         return alive && (p.state & UInt(0xFFU)) == UInt(0U);
     }
 
+    SPINDRIFT_HD static int lowest_lane(std::uint32_t lanes)
+    {
+        if constexpr (width == 1)
+            return 0;
+        else
+            return __builtin_ctz(lanes);
+    }
+
     /// The lanes of `lanes` one by one.
+    template <class Tally>
     SPINDRIFT_HD void meet(std::uint32_t lanes, const Vec3<R>& from, Pack& p, const Move& m,
-                           std::uint32_t substep, EncounterTally& tally) const
+                           std::uint32_t substep, Tally& tally) const
     {
         Lanes x(from), path(m.path), q(p.q), slip(p.slip), mean(m.air.mean), end(p.x);
         Lanes s1({m.air.s11, m.air.s21, m.air.s22}), s2({m.air.s31, m.air.s32, m.air.s33});
@@ -206,7 +217,7 @@ struct FlakeAdvector
         const Resolver resolve{around, step.seed, step.number, substep, Turbulent};
         for (; lanes != 0; lanes &= lanes - 1)
         {
-            const int l = __builtin_ctz(lanes);
+            const int l = lowest_lane(lanes);
             Encounter f;
             f.x = x[l], f.path = path[l], f.q = q[l], f.slip = slip[l];
             f.air.mean = mean[l];

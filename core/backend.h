@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/flake.h"
+#include "core/flake_extent.h"
 #include "core/vec.h"
 #include "core/view.h"
 
@@ -47,13 +48,23 @@ struct SortSettings
     int passes_per_frame = 8;       ///< steps that a sort over frames takes; at least 1
 };
 
-/// Moves and orders the flakes of one World. Implementations: cpu::CpuBackend; a CUDA one comes beside it.
+/// Moves and orders the flakes of one World. Implementations: cpu::CpuBackend, gpu::CudaBackend.
 class Backend
 {
   public:
     virtual ~Backend() = default;
 
     virtual std::string name() const = 0;  ///< "cpu (avx512, 2 threads)"
+
+    /// Takes the flakes' memory from GL: between open() and close() the backend writes it and GL must not
+    /// read. What needs the memory opens it by itself. A backend that shares memory with GL has nothing to
+    /// do.
+    virtual void open() {}
+    /// Gives the flakes, and the list that prepare() returned, to whoever draws.
+    virtual void close(const DrawList&) {}
+    /// Waits until all that was asked for is done; counts() are those of step_number() afterwards. A backend
+    /// whose calls return only when they are done has nothing to do.
+    virtual void finish() {}
 
     /// Advances by one step of World::step_s: emission, wind, turbulence, settling, contacts, borders.
     virtual void step() = 0;
@@ -62,12 +73,16 @@ class Backend
     /// id. Throws Error for a strategy that this backend has not got.
     virtual DrawList prepare(const View& view, const SortSettings& sort) = 0;
 
+    /// The newest that are known; a device may be some steps ahead of them until finish().
     virtual FlakeCounts counts() const = 0;
     virtual std::uint64_t step_number() const = 0;
     virtual std::uint64_t slots_used() const = 0;  ///< holes included
 
     /// Order-independent 64-bit hash of every alive flake's state and of the counts.
     virtual std::uint64_t state_hash() const = 0;
+
+    /// Bounds of the living flakes, and how many have run away (there must be none). Waits.
+    virtual FlakeExtent extent() const = 0;
 
     virtual Snapshot save() const = 0;
     /// Throws Error if the snapshot belongs to another World or does not fit.

@@ -73,11 +73,20 @@ struct Surroundings
     }
 };
 
-/// What one task counts; the sums do not depend on how flakes were shared out.
+/// What one task of the host counts; the sums do not depend on how flakes were shared out. A device counts
+/// with a type of its own that has the same two functions (a "Tally" below).
 struct EncounterTally
 {
     std::uint64_t left = 0, landed = 0, vanished = 0;
     std::uint32_t* lost = nullptr;  ///< by emitter: flakes that it is to make up for
+
+    /// A flake came to its end; `fate` is not `alive`.
+    SPINDRIFT_HD void ended(Fate fate)
+    {
+        ++(fate == Fate::left ? left : fate == Fate::landed ? landed : vanished);
+    }
+    /// A flake of this emitter is to be made up for.
+    SPINDRIFT_HD void lose(std::uint32_t emitter) { ++lost[emitter]; }
 };
 
 /// One flake with the path that it would go if nothing were in the way.
@@ -124,7 +133,8 @@ struct EncounterResolver
     /// Places that are tried for a flake that wrapped into a solid.
     static constexpr std::uint32_t kPlaces = 8;
 
-    SPINDRIFT_HD void operator()(Encounter& f, EncounterTally& tally) const
+    template <class Tally>
+    SPINDRIFT_HD void operator()(Encounter& f, Tally& tally) const
     {
         const Region& region = around.regions[f.emitter()];
         Vec3f velocity = air_velocity(f) + f.slip;
@@ -220,22 +230,23 @@ struct EncounterResolver
         }
     }
 
-    SPINDRIFT_HD static void stop(Encounter& f, Fate fate, const Region& region, EncounterTally& tally)
+    template <class Tally>
+    SPINDRIFT_HD static void stop(Encounter& f, Fate fate, const Region& region, Tally& tally)
     {
         f.end(fate);
-        ++(fate == Fate::landed ? tally.landed : tally.vanished);
-        if (region.sky) ++tally.lost[f.emitter()];
+        tally.ended(fate);
+        if (region.sky) tally.lose(f.emitter());
     }
 
     /// At the border of the domain. False if the flake is gone.
-    SPINDRIFT_HD bool cross(Encounter& f, const Region& region, const Border& border,
-                            EncounterTally& tally) const
+    template <class Tally>
+    SPINDRIFT_HD bool cross(Encounter& f, const Region& region, const Border& border, Tally& tally) const
     {
         if (around.on_leave != OnLeave::wrap || border.axis == 2)
         {
             f.end(Fate::left);
-            ++tally.left;
-            if (around.on_leave == OnLeave::respawn) ++tally.lost[f.emitter()];
+            tally.ended(Fate::left);
+            if (around.on_leave == OnLeave::respawn) tally.lose(f.emitter());
             return false;
         }
         const float lower = detail::component(region.lower, border.axis);
@@ -245,7 +256,8 @@ struct EncounterResolver
     }
 
     /// Brings a flake that left the box of its sky in again on the other side.
-    SPINDRIFT_HD void fold(Encounter& f, const Region& region, EncounterTally& tally) const
+    template <class Tally>
+    SPINDRIFT_HD void fold(Encounter& f, const Region& region, Tally& tally) const
     {
         bool folded[3] = {false, false, false};
         for (int axis = 0; axis < 3; ++axis)
@@ -264,8 +276,9 @@ struct EncounterResolver
 
     /// A flake that wrapped into a solid is tried at other places of the side where it came in, at the same
     /// height; it vanishes if none of them is free. False if it is gone.
+    template <class Tally>
     SPINDRIFT_HD bool settle_in(Encounter& f, const Region& region, bool keep_x, bool keep_y,
-                                EncounterTally& tally) const
+                                Tally& tally) const
     {
         if (!around.is_blocked(f.x)) return true;
         f.path = {0, 0, 0};

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/platform.h"
+
 namespace spindrift
 {
 
@@ -16,6 +18,12 @@ enum class Fate : std::uint32_t
     landed = 2,    ///< came to rest on a surface
     vanished = 3,  ///< ended on a surface that swallows flakes
 };
+
+/// Of an element of FlakeView::state.
+SPINDRIFT_HD bool is_alive(std::uint32_t state)
+{
+    return (state & 0xFFU) == static_cast<std::uint32_t>(Fate::alive);
+}
 
 /// The moving flakes as a structure of arrays over memory that somebody else owns (GL, the device or the
 /// host). Every array holds `capacity` elements and is aligned to 64 bytes. Slots [0, used) hold flakes, in

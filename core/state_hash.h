@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "core/flake.h"
+#include "core/number.h"
 #include "core/philox.h"
 #include "core/platform.h"
 
@@ -18,6 +20,14 @@ SPINDRIFT_HD std::uint64_t flake_hash(const std::uint32_t (&bits)[11])
     for (int i = 0; i + 1 < 11; i += 2)
         h = mix64(h ^ (static_cast<std::uint64_t>(bits[i + 1]) << 32 | bits[i]));
     return mix64(h ^ bits[10]);
+}
+
+/// Of the flake in a slot; 0 if it does not live.
+SPINDRIFT_HD std::uint64_t flake_hash(const FlakeView& f, std::size_t i)
+{
+    if (!is_alive(f.state[i])) return 0;
+    return flake_hash({bits(f.x[i]), bits(f.y[i]), bits(f.z[i]), bits(f.q1[i]), bits(f.q2[i]), bits(f.q3[i]),
+                       bits(f.slip_x[i]), bits(f.slip_y[i]), bits(f.slip_z[i]), f.id[i], f.state[i]});
 }
 
 /// The counts of a run, mixed; added to the sum over the flakes.

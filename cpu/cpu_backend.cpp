@@ -10,9 +10,14 @@
 #include <tbb/info.h>
 #include <tbb/task_arena.h>
 
+#include "core/anchors.h"
+#include "core/check_world.h"
 #include "core/error.h"
+#include "core/flake_extent.h"
+#include "core/snapshot_check.h"
 #include "core/state_hash.h"
-#include "cpu/anchors.h"
+#include "core/step_state.h"
+#include "core/world_hash.h"
 #include "cpu/chunks.h"
 #include "cpu/compaction.h"
 #include "cpu/draw_list.h"
@@ -21,7 +26,6 @@
 #include "cpu/parallel.h"
 #include "cpu/simd.h"
 #include "cpu/snapshot.h"
-#include "cpu/world_hash.h"
 
 namespace spindrift::cpu
 {
@@ -105,10 +109,11 @@ class CpuBackend final : public Backend
         return result;
     }
 
-    FlakeCounts counts() const override { return counts_; }
-    std::uint64_t step_number() const override { return step_; }
-    std::uint64_t slots_used() const override { return used_; }
+    FlakeCounts counts() const override { return state_.counts; }
+    std::uint64_t step_number() const override { return state_.step; }
+    std::uint64_t slots_used() const override { return state_.used; }
     std::uint64_t state_hash() const override;
+    FlakeExtent extent() const override;
     Snapshot save() const override;
     void restore(const Snapshot& snapshot) override;
     StageTimes times() const override { return times_; }
@@ -121,6 +126,8 @@ class CpuBackend final : public Backend
     void compact();
     DrawList prepare_in_arena(const View& view, const SortSettings& sort);
     void place_regions(double time_s);
+    template <class Part, class OfChunk>
+    std::vector<Part> parts(const OfChunk& of_chunk) const;
     double time_of(std::uint64_t step) const { return static_cast<double>(step) * world_.data().step_s; }
 
     HeldWorld world_;
@@ -139,65 +146,52 @@ class CpuBackend final : public Backend
     std::vector<std::uint32_t> lost_;  ///< by chunk and emitter
     std::uint64_t hash_;
     AdvectJob job_;
-    FlakeCounts counts_;
+    StepState state_;
     StageTimes times_;
-    std::uint64_t step_ = 0;
-    std::uint64_t next_id_ = 0;
-    std::size_t used_ = 0;
 };
 
-/// The boxes of the skies at a time; all other emitters' flakes live in the domain.
 void CpuBackend::place_regions(double time_s)
 {
     const World& world = world_.data();
-    const Region domain{{0, 0, 0}, world.size_m, false};
-    regions_[0] = domain;
-    for (std::size_t e = 0; e < world.emitters.size(); ++e)
-    {
-        const Emitter& emitter = world.emitters[e];
-        regions_[e] = domain;
-        if (emitter.shape != EmitterShape::sky) continue;
-        const Vec3f centre = emitter.anchor < 0 ? emitter.a : anchors_.at(emitter.anchor, time_s);
-        const Vec3f half = emitter.b * 0.5F;
-        regions_[e] = {centre - half, centre + half, true};
-    }
+    const RegionPlacer place{world.emitters.data(), world.emitters.size(), anchors_.views().data(),
+                             world.size_m};
+    place(time_s, regions_.data());
 }
 
 void CpuBackend::step_in_arena()
 {
-    job_.step.number = static_cast<std::uint32_t>(step_);
-    place_regions(time_of(step_));
+    job_.step.number = static_cast<std::uint32_t>(state_.step);
+    place_regions(time_of(state_.step));
     emit();
-    place_regions(time_of(step_ + 1));
+    place_regions(time_of(state_.step + 1));
     advect();
-    ++step_;
-    if (used_ - counts_.alive > used_ / 8) compact();
+    ++state_.step;
+    if (state_.has_many_holes()) compact();
 }
 
 void CpuBackend::emit()
 {
-    const std::uint64_t due = emission_.due(step_);
+    const std::uint64_t due = emission_.ledger().due(state_.step);
     if (due == 0) return;
-    if (due > world_.data().capacity - used_ && used_ > counts_.alive) compact();
+    const std::uint64_t capacity = world_.data().capacity;
+    if (state_.lacks_room(due, capacity)) compact();
     const StageTimer timer(times_.emit);
-    const Emission::Made made = emission_.make(job_, step_, next_id_, used_, world_.data().capacity - used_);
-    used_ += made.slots;
-    next_id_ += made.slots;
-    counts_.emitted += made.slots;
-    counts_.alive += made.slots - made.vanished;
-    counts_.vanished += made.vanished;
-    counts_.withheld += made.withheld;
+    const EmissionLedger::Share share = emission_.ledger().share_out(state_.step, capacity - state_.used);
+    const std::uint64_t vanished =
+        emission_.make(job_, state_.step, state_.next_id, state_.used, share.slots);
+    state_.emit(share);
+    state_.end(0, 0, vanished);
 }
 
 void CpuBackend::advect()
 {
     const StageTimer timer(times_.advect);
     const std::size_t kinds = world_.data().emitters.size();
-    const std::size_t chunks = chunk_count(used_);
+    const std::size_t chunks = chunk_count(state_.used);
     parallel_for_each_index(chunks,
                             [&](std::size_t c)
                             {
-                                const Chunk chunk(c, used_);
+                                const Chunk chunk(c, state_.used);
                                 EncounterTally tally;
                                 tally.lost = lost_.data() + c * kinds;
                                 std::fill_n(tally.lost, kinds, 0U);
@@ -207,10 +201,7 @@ void CpuBackend::advect()
     for (std::size_t c = 0; c < chunks; ++c)
     {
         const EncounterTally& tally = tallies_[c];
-        counts_.left += tally.left;
-        counts_.landed += tally.landed;
-        counts_.vanished += tally.vanished;
-        counts_.alive -= tally.left + tally.landed + tally.vanished;
+        state_.end(tally.left, tally.landed, tally.vanished);
         for (std::size_t e = 0; e < kinds; ++e) emission_.owe(e, tally.lost[e]);
     }
 }
@@ -218,7 +209,8 @@ void CpuBackend::advect()
 void CpuBackend::compact()
 {
     const StageTimer timer(times_.compact);
-    used_ = compact_(flakes_, used_);
+    compact_(flakes_, state_.used);
+    state_.close_holes();
     list_.slots_renumbered();
 }
 
@@ -228,63 +220,75 @@ DrawList CpuBackend::prepare_in_arena(const View& view, const SortSettings& sort
     DrawList result;
     {
         const StageTimer timer(times_.cull);
-        result = list_.fill(kernels_, flakes_, used_, view, sort, strategy);
+        result = list_.fill(kernels_, flakes_, state_.used, view, sort, strategy);
     }
-    result.culled = counts_.alive - result.count;
+    result.culled = state_.counts.alive - result.count;
     const StageTimer timer(times_.sort);
     list_.sort(strategy, sort, view, result);
     return result;
 }
 
-std::uint64_t CpuBackend::state_hash() const
+/// `of_chunk` of every chunk of the used slots.
+template <class Part, class OfChunk>
+std::vector<Part> CpuBackend::parts(const OfChunk& of_chunk) const
 {
-    std::vector<std::uint64_t> sums(chunk_count(used_));
+    std::vector<Part> result(chunk_count(state_.used));
     arena_.execute(
         [&]
         {
-            parallel_for_each_index(sums.size(),
-                                    [&](std::size_t c)
-                                    {
-                                        const Chunk chunk(c, used_);
-                                        sums[c] = flakes_hash(flakes_, chunk.first, chunk.last);
-                                    });
+            parallel_for_each_index(result.size(),
+                                    [&](std::size_t c) { result[c] = of_chunk(Chunk(c, state_.used)); });
         });
-    std::uint64_t sum = counts_hash(counts_);
-    for (const std::uint64_t s : sums) sum += s;
+    return result;
+}
+
+std::uint64_t CpuBackend::state_hash() const
+{
+    const auto of_chunk = [&](const Chunk& chunk)
+    {
+        std::uint64_t sum = 0;
+        for (std::size_t i = chunk.first; i < chunk.last; ++i) sum += flake_hash(flakes_, i);
+        return sum;
+    };
+    std::uint64_t sum = counts_hash(state_.counts);
+    for (const std::uint64_t part : parts<std::uint64_t>(of_chunk)) sum += part;
     return sum;
+}
+
+FlakeExtent CpuBackend::extent() const
+{
+    const auto of_chunk = [&](const Chunk& chunk)
+    {
+        FlakeExtent extent;
+        for (std::size_t i = chunk.first; i < chunk.last; ++i) include(extent, flakes_, i);
+        return extent;
+    };
+    FlakeExtent extent;
+    for (const FlakeExtent& part : parts<FlakeExtent>(of_chunk)) include(extent, part);
+    return extent;
 }
 
 Snapshot CpuBackend::save() const
 {
     Snapshot s;
     s.world_hash = hash_;
-    s.step = step_;
-    s.next_id = next_id_;
-    s.counts = counts_;
-    s.emitter_state = emission_.save();
-    const std::vector<std::uint64_t> anchors = anchors_.save();
-    s.emitter_state.insert(s.emitter_state.end(), anchors.begin(), anchors.end());
-    s.arrays = alive_arrays(flakes_, used_);
+    s.step = state_.step;
+    s.next_id = state_.next_id;
+    s.counts = state_.counts;
+    emission_.save(s.emitter_state);
+    anchors_.save(s.emitter_state);
+    s.arrays = alive_arrays(flakes_, state_.used);
     return s;
 }
 
 void CpuBackend::restore(const Snapshot& s)
 {
-    if (s.world_hash != hash_)
-        throw Error(
-            "snapshot belongs to another scene (its world differs); restore it with the scene that it was "
-            "saved from");
-    const std::size_t emitters = world_.data().emitters.size();
-    if (s.emitter_state.size() != 2 * emitters + 3 * anchors_.count())
-        throw Error("snapshot has not the state of this scene's emitters (damaged); write it again");
-    check_arrays(s, world_.data().capacity, emitters);
+    const World& world = world_.data();
+    check_snapshot(s, hash_, world.capacity, world.emitters.size(), anchors_);
     put_arrays(s, flakes_);
     emission_.restore(s.emitter_state.data());
-    anchors_.restore(s.emitter_state.data() + 2 * emitters);
-    step_ = s.step;
-    next_id_ = s.next_id;
-    counts_ = s.counts;
-    used_ = s.counts.alive;
+    anchors_.restore(s.emitter_state.data() + 2 * world.emitters.size());
+    state_ = {s.counts, s.step, s.next_id, s.counts.alive};
     list_.slots_renumbered();
 }
 

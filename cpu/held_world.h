@@ -5,14 +5,11 @@
 #include <memory>
 #include <vector>
 
+#include "core/advect_job.h"
 #include "core/world.h"
-#include "cpu/kernels.h"
 
 namespace spindrift::cpu
 {
-
-/// Throws Error for a World whose parts contradict each other, so that no kernel reads outside an array.
-void check_world(const World& world);
 
 /// A World as the kernels read it: its wind cells in large pages (a flake reads eight cache lines of them at
 /// random places, most of the cost of which would else be address translation), its clearances with room to

@@ -4,29 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/advect.h"
+#include "core/advect_job.h"
 #include "core/depth_key.h"
 #include "core/encounter.h"
 #include "core/flake.h"
-#include "core/snow.h"
-#include "core/wind.h"
 
 namespace spindrift::cpu
 {
-
-/// Everything that one step of one World needs to know, the same for all chunks.
-struct AdvectJob
-{
-    StepParams step;
-    WindKind wind_kind = WindKind::uniform;
-    bool turbulent = false;
-    UniformWind uniform;
-    LogWind logarithmic;
-    GridWind grid;
-    FallSpeed fall_speed;
-    Surroundings around;
-    FlakeView flakes{};
-};
 
 /// The kernels compiled for one instruction set. Each works on the slots [first, last) on one thread; `first`
 /// is a multiple of 16. The translation units behind it include neither threads nor containers, so that no

@@ -2,6 +2,7 @@
 // The bodies of a KernelTable over the number type Real, which the translation unit that includes this names.
 
 #include "core/advect.h"
+#include "core/visible.h"
 #include "cpu/kernels.h"
 #include "cpu/pack_grid.h"
 
@@ -102,22 +103,18 @@ void advect(const AdvectJob& job, std::size_t first, std::size_t last, Encounter
 
 /// One pack of the draw list; returns how many pairs it wrote.
 template <class R>
-SPINDRIFT_HD std::size_t list_pack(const Frustum& frustum, const FlakeView& flakes, std::size_t i,
-                                   std::uint64_t* out)
+SPINDRIFT_HD std::size_t list_pack(const VisibleFlakes<R>& flakes, std::size_t i, std::uint64_t* out)
 {
     constexpr int width = NumberTraits<R>::width;
-    using UInt = UIntOf<R>;
-    const Vec3<R> x{load<R>(flakes.x + i), load<R>(flakes.y + i), load<R>(flakes.z + i)};
-    const Vec3<R> d = from_eye(frustum, x);
-    const auto alive = (load<UInt>(flakes.state + i) & UInt(0xFFU)) == UInt(0U);
-    const std::uint32_t visible = mask_bits(alive && in_view(frustum, d));
+    const Vec3<R> d = flakes.offset(i);
+    const std::uint32_t visible = mask_bits(flakes.sees(i, d));
     if (visible == 0) return 0;
     std::uint32_t keys[width];
-    store(keys, depth_key(frustum, d));
+    store(keys, flakes.key(d));
     std::size_t n = 0;
     for (int l = 0; l < width; ++l)
     {
-        out[n] = static_cast<std::uint64_t>(keys[l]) << 32 | (i + static_cast<std::size_t>(l));
+        out[n] = draw_list_pair(keys[l], i + static_cast<std::size_t>(l));
         n += visible >> l & 1U;
     }
     return n;
@@ -128,8 +125,8 @@ std::size_t list_visible(const Frustum& frustum, const FlakeView& flakes, std::s
 {
     std::uint64_t* to = out;
     std::size_t i = first;
-    for (; i + kWidth <= last; i += kWidth) to += list_pack<Real>(frustum, flakes, i, to);
-    for (; i < last; ++i) to += list_pack<float>(frustum, flakes, i, to);
+    for (; i + kWidth <= last; i += kWidth) to += list_pack(VisibleFlakes<Real>{frustum, flakes}, i, to);
+    for (; i < last; ++i) to += list_pack(VisibleFlakes<float>{frustum, flakes}, i, to);
     return static_cast<std::size_t>(to - out);
 }
 

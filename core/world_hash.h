@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: MIT
-#include "cpu/world_hash.h"
+#pragma once
 
+#include <cstdint>
 #include <cstring>
 #include <type_traits>
 
 #include "core/philox.h"
+#include "core/vec.h"
+#include "core/world.h"
 
-namespace spindrift::cpu
+namespace spindrift
 {
 
-namespace
+namespace detail
 {
 
 /// Takes values one by one, never whole structures: their padding has no value.
-class Hasher
+class WorldHasher
 {
   public:
     template <class T>
@@ -48,7 +51,7 @@ class Hasher
     std::uint64_t value_ = 0;
 };
 
-void add(Hasher& h, const Emitter& e)
+inline void add(WorldHasher& h, const Emitter& e)
 {
     h.add(e.shape);
     h.add(e.a), h.add(e.b), h.add(e.c);
@@ -57,7 +60,7 @@ void add(Hasher& h, const Emitter& e)
     h.all(e.at_rest_in_air, e.anchor);
 }
 
-void add(Hasher& h, const Wind& w)
+inline void add(WorldHasher& h, const Wind& w)
 {
     h.all(w.kind, w.turbulent);
     h.add(w.uniform_m_s);
@@ -69,7 +72,7 @@ void add(Hasher& h, const Wind& w)
     h.bytes(w.cells.data(), w.cells.size() * sizeof(WindCell));
 }
 
-void add(Hasher& h, const VoxelGrid& v)
+inline void add(WorldHasher& h, const VoxelGrid& v)
 {
     h.all(v.nx, v.ny, v.nz);
     h.add(v.origin_m);
@@ -78,11 +81,13 @@ void add(Hasher& h, const VoxelGrid& v)
     h.bytes(v.surface.data(), v.surface.size());
 }
 
-}  // namespace
+}  // namespace detail
 
-std::uint64_t world_hash(const World& w)
+/// Of every value of a World that its flakes depend on: a snapshot fits only the World that it was made in.
+/// Host only.
+inline std::uint64_t world_hash(const World& w)
 {
-    Hasher h;
+    detail::WorldHasher h;
     h.add(w.size_m);
     h.all(w.on_leave, w.step_s, w.seed, w.capacity);
     h.all(w.snow.crystal, w.snow.spectrum, w.snow.rate_mm_h, w.snow.fall_speed_spread_m_s, w.snow.weight);
@@ -106,4 +111,4 @@ std::uint64_t world_hash(const World& w)
     return h.value();
 }
 
-}  // namespace spindrift::cpu
+}  // namespace spindrift

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/anchors.h"
+#include "core/backend.h"
+#include "core/error.h"
+#include "core/flake.h"
+#include "core/math.h"
+#include "core/number.h"
+
+namespace spindrift
+{
+
+/// Arrays of a snapshot, and the first of them that hold floats.
+inline constexpr std::size_t kFlakeArrays = 11;
+inline constexpr std::size_t kFlakeFloatArrays = 9;
+
+namespace detail
+{
+
+inline void check_arrays(const Snapshot& s, std::uint64_t capacity, std::size_t emitters)
+{
+    const FlakeCounts& c = s.counts;
+    if (c.alive > capacity)
+        throw Error("snapshot holds " + std::to_string(c.alive) + " flakes, more than the capacity of " +
+                    std::to_string(capacity) + "; raise the capacity");
+    bool whole = s.arrays.size() == kFlakeArrays && c.emitted == c.alive + c.left + c.landed + c.vanished;
+    for (const auto& array : s.arrays) whole = whole && array.size() == c.alive;
+    for (std::size_t a = 0; whole && a < kFlakeFloatArrays; ++a)
+        for (const std::uint32_t word : s.arrays[a]) whole = whole && is_finite(from_bits(word));
+    if (whole)
+        for (const std::uint32_t state : s.arrays[kFlakeArrays - 1])
+            whole = whole && is_alive(state) && state >> 8 < emitters;
+    if (!whole) throw Error("snapshot contradicts itself (damaged); write it again");
+}
+
+}  // namespace detail
+
+/// Throws Error unless a snapshot belongs to this World, its arrays are whole, fit the capacity, and hold
+/// finite, living flakes of emitters that exist. Host only.
+inline void check_snapshot(const Snapshot& s, std::uint64_t world_hash, std::uint64_t capacity,
+                           std::size_t emitters, const Anchors& anchors)
+{
+    if (s.world_hash != world_hash)
+        throw Error(
+            "snapshot belongs to another scene (its world differs); restore it with the scene that it was "
+            "saved from");
+    if (s.emitter_state.size() != 2 * emitters + anchors.words())
+        throw Error("snapshot has not the state of this scene's emitters (damaged); write it again");
+    detail::check_arrays(s, capacity, emitters);
+}
+
+}  // namespace spindrift
