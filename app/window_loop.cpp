@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "app/frame_drawer.h"
-#include "cpu/sort/strategy.h"
+#include "app/sort_choice.h"
 #include "gl/window.h"
 #include "scene/make_world.h"
 
@@ -25,11 +25,10 @@ using Clock = std::chrono::steady_clock;
 /// A frame that took longer than this slows the snow down instead of asking for ever more steps.
 constexpr double kLongestCatchUp_s = 0.1;
 
-std::string next_strategy(const std::string& now)
+std::string next_strategy(std::string_view backend, const std::string& now)
 {
-    const auto table = cpu::sort_strategies();
-    const auto found =
-        std::find_if(table.begin(), table.end(), [&](const cpu::SortStrategy& s) { return s.name == now; });
+    const auto table = sorts_of(backend);
+    const auto found = std::ranges::find(table, now, &SortName::name);
     const auto next = found == table.end() || found + 1 == table.end() ? table.begin() : found + 1;
     return std::string(next->name);
 }
@@ -66,7 +65,8 @@ class WindowRun
         if (!window_.paused()) time_s_ += std::min(passed_s, kLongestCatchUp_s);
         if (window_.step_once())
             time_s_ = static_cast<double>(simulator_.backend().step_number() + 1) * run_.input.world.step_s;
-        if (window_.next_sort()) drawer_.set_sort(next_strategy(drawer_.sort().strategy));
+        if (window_.next_sort())
+            drawer_.set_sort(next_strategy(run_.input.choice.name, drawer_.sort().strategy));
         const View view = window_.view(scene::camera_at(run_.input.scene, time_s_));
         carry_skies(view);
         // The margin forgives rounding, as in FrameClock.

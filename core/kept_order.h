@@ -17,14 +17,14 @@ enum class SortStart
 class KeptOrder
 {
   public:
-    /// For each frame that is sorted so. False: put everything in order anew, since no order is kept, or
-    /// since the view turned or moved so far in one frame that the old one says little.
-    bool goes_on(const View& view)
+    /// For each frame that is sorted so. Exact if no order is kept, or if the view turned or moved so far in
+    /// one frame that the old one says little.
+    SortStart next(const View& view)
     {
-        const bool result = kept_ && !jumped(view_, view);
+        const bool goes_on = kept_ && !jumped(view_, view);
         kept_ = true;
         view_ = view;
-        return result;
+        return goes_on ? SortStart::as_kept : SortStart::exact;
     }
     /// Slots were given new numbers, or another sort ran.
     void forget() { kept_ = false; }
