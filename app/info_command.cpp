@@ -6,8 +6,8 @@
 #include "app/commands.h"
 #include "app/exit_codes.h"
 #include "app/machine.h"
+#include "app/sort_choice.h"
 #include "core/error.h"
-#include "cpu/sort/strategy.h"
 #include "gl/context.h"
 
 namespace spindrift::app
@@ -29,12 +29,12 @@ std::string simd_variants()
     return fmt::format("{} (auto runs {}; the results are the same)", text, used_simd({}));
 }
 
-std::string sorts()
+std::string sorts(const std::string& backend)
 {
     std::string text;
-    for (const cpu::SortStrategy& strategy : cpu::sort_strategies())
-        text += fmt::format("{}{}", text.empty() ? "" : ", ", strategy.name);
-    return text;
+    for (const SortName& sort : sorts_of(backend))
+        text += fmt::format("{}{}", text.empty() ? "" : ", ", sort.name);
+    return fmt::format("{} (auto is {})", text, choose_sort(backend, "auto"));
 }
 
 void print_cuda(const CudaSupport& cuda)
@@ -85,7 +85,7 @@ int info()
     line("processor", processor_name());
     line("threads", fmt::format("{}", usable_threads({})));
     line("SIMD", simd_variants());
-    line("sorts", sorts());
+    line("sorts", sorts(choice.name));
     print_cuda(cuda);
     print_gl(cuda);
     line("display", has_display() ? "yes" : "none (DISPLAY and WAYLAND_DISPLAY are unset): use --headless");

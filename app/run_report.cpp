@@ -135,6 +135,7 @@ Json drawn_json(const DrawnFlakes& flakes)
 {
     return {{"sort", flakes.sort.strategy},
             {"depth_bits", flakes.sort.depth_bits},
+            {"passes_per_frame", flakes.sort.passes_per_frame},
             {"drawn_median", quantile(flakes.drawn, 0.5)},
             {"culled_median", quantile(flakes.culled, 0.5)}};
 }
