@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/command_line.h"
 
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -12,8 +13,9 @@
 #include "app/commands.h"
 #include "app/exit_codes.h"
 #include "app/machine.h"
+#include "app/sort_choice.h"
 #include "core/error.h"
-#include "cpu/sort/strategy.h"
+#include "measure/sort_keys.h"
 
 namespace spindrift::app
 {
@@ -32,6 +34,7 @@ Examples:
   spindrift run my.toml --headless --out 'f_%04d.exr' --size 1920x1080 --frames 240
   spindrift run two-blocks --wind F_windsWk.nc --turbulence F_turbOut.nc
   spindrift explain town                                     what a frame does and why
+  spindrift sorts --scene town                               which sort suits this machine and scene
 )";
 
 constexpr const char* kRunExamples = R"(
@@ -43,6 +46,16 @@ Examples:
 
 In the window: W A S D Q E move, Shift is fast, right drag looks, left drag orbits, the wheel sets speed or distance,
 C is the scene's camera, Space pauses, N steps, T takes the next sort, F1 hides the overlay, Esc quits.
+)";
+
+constexpr const char* kSortsExamples = R"(
+Examples:
+  spindrift sorts                                      made-up keys, 65K and 1M pairs
+  spindrift sorts --scene town --out town.csv          a camera path, with the error of the picture
+  spindrift sorts --sizes 1M --patterns camera-sweep --strategies radix,bitonic-passes --sort-passes 16
+  spindrift sorts --table-4-1                          beside the report's figures
+
+x floor: time over that of copying the bytes that a radix sort of the same key bits must move (8 + 16 a digit).
 )";
 
 /// "1280x720"
@@ -74,13 +87,54 @@ void check_rate(double frames_per_s)
 
 std::string sort_help()
 {
-    std::string text = "How flakes are put in order, far to near:";
-    for (const cpu::SortStrategy& strategy : cpu::sort_strategies())
-        text += fmt::format("\n  {}: {}", strategy.name, strategy.about);
+    std::string text =
+        "How flakes are put in order, far to near; auto is the exact sort that suits most, passes is short "
+        "for "
+        "bitonic-passes:";
+    for (const char* backend : {"cpu", "cuda"})
+        for (const SortName& sort : sorts_of(backend))
+            text += fmt::format("\n  {} ({}): {}", sort.name, backend, sort.about);
     return text;
 }
 
-/// Options that change the scene, which run and explain share.
+std::size_t parse_pairs(const std::string& text)
+{
+    constexpr std::uint64_t kMost = 100'000'000;
+    std::uint64_t count = 0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, count);
+    const std::string_view unit(rest, static_cast<std::size_t>(end - rest));
+    const std::uint64_t factor = unit == "M" ? 1'000'000 : unit == "K" ? 1000 : 1;
+    const bool whole = error == std::errc() && (unit.empty() || factor > 1);
+    if (!whole || count == 0 || count > kMost / factor)
+        throw CLI::ValidationError(
+            "--sizes", fmt::format("{} is no number of pairs; use 1 to 100M, such as 15K,1M", text));
+    return count * factor;
+}
+
+measure::KeyPattern parse_pattern(const std::string& text)
+{
+    std::string names;
+    for (const measure::KeyPattern pattern : measure::kKeyPatterns)
+    {
+        if (measure::pattern_name(pattern) == text) return pattern;
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", measure::pattern_name(pattern));
+    }
+    throw CLI::ValidationError("--patterns",
+                               fmt::format("{} is no pattern of keys; use some of {}", text, names));
+}
+
+void add_sort_passes(CLI::App& command, scene::SceneOverrides& scene, const char* group)
+{
+    command
+        .add_option("--sort-passes", scene.sort_passes_per_frame,
+                    "Steps of the network a frame, of bitonic-passes and odd-even-passes")
+        ->type_name("K")
+        ->check(CLI::Range(1, 4096))
+        ->group(group);
+}
+
+/// Options that change the scene, which run, explain and sorts share.
 void add_scene_options(CLI::App& command, scene::SceneOverrides& scene)
 {
     const char* group = "The scene, changed";
@@ -131,7 +185,21 @@ void add_scene_options(CLI::App& command, scene::SceneOverrides& scene)
         ->type_name("N")
         ->check(CLI::Range(0, 1000000))
         ->group(group);
-    command.add_option("--sort", scene.sort, sort_help())->type_name("S")->group(group);
+    add_sort_passes(command, scene, group);
+}
+
+void add_sort(CLI::App& command, scene::SceneOverrides& scene)
+{
+    command.add_option("--sort", scene.sort, sort_help())->type_name("S")->group("The scene, changed");
+}
+
+void add_backend(CLI::App& command, std::string& backend, const char* group)
+{
+    command.add_option("--backend", backend, "auto (cuda where there is a device, else cpu), cpu or cuda")
+        ->type_name("B")
+        ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
+        ->capture_default_str()
+        ->group(group);
 }
 
 void add_run(CLI::App& app, RunOptions& options)
@@ -142,6 +210,7 @@ void add_run(CLI::App& app, RunOptions& options)
         ->required()
         ->type_name("SCENE");
     add_scene_options(command, options.overrides);
+    add_sort(command, options.overrides);
     command.add_option("--depth-bits", options.depth_bits, "Bits of the depth key that are sorted by")
         ->type_name("B")
         ->check(CLI::IsMember({32, 24, 16}))
@@ -178,13 +247,7 @@ void add_run(CLI::App& app, RunOptions& options)
         ->group(output);
 
     const char* machine = "The machine";
-    command
-        .add_option("--backend", options.backend,
-                    "auto (cuda where there is a device, else cpu), cpu or cuda; the result is the same")
-        ->type_name("B")
-        ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
-        ->capture_default_str()
-        ->group(machine);
+    add_backend(command, options.backend, machine);
     command.add_option("--threads", options.threads, "Threads of the CPU backend; 0: one per core")
         ->type_name("T")
         ->check(CLI::Range(0, 1024))
@@ -207,8 +270,10 @@ void add_run(CLI::App& app, RunOptions& options)
     static const std::map<std::string, Interop> kInterop = {
         {"auto", Interop::automatic}, {"on", Interop::on}, {"off", Interop::off}};
     command
-        .add_option("--interop", options.interop,
-                    "Simulate in the memory that GL draws from: auto, on, or off (copy each frame)")
+        .add_option(
+            "--interop", options.interop,
+            "Simulate in the memory that GL draws from: auto (where it works), on (or fail), off (copy "
+            "each frame)")
         ->type_name("I")
         ->transform(CLI::Transformer(kInterop).description(""))
         ->group(machine);
@@ -222,7 +287,55 @@ void add_explain(CLI::App& app, ExplainOptions& options)
         ->required()
         ->type_name("SCENE");
     add_scene_options(command, options.overrides);
+    add_sort(command, options.overrides);
     command.add_flag("--json", options.json, "As JSON");
+}
+
+void add_sorts(CLI::App& app, SortsOptions& options)
+{
+    CLI::App& command = *app.add_subcommand(
+        "sorts", "Measure every sort of this machine: time beside its floor, bytes, order and picture");
+    command.footer(kSortsExamples);
+    const char* input = "What is sorted";
+    command
+        .add_option("--scene", options.scene,
+                    "The frames of a scene before its own camera, and the pictures that each order makes")
+        ->type_name("SCENE")
+        ->group(input);
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--sizes",
+            [&options](const std::vector<std::string>& texts)
+            {
+                for (const std::string& text : texts) options.sizes.push_back(parse_pairs(text));
+            },
+            "Made-up keys: numbers of pairs, 65K,1M unless given")
+        ->delimiter(',')
+        ->type_name("N,...")
+        ->group(input);
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--patterns",
+            [&options](const std::vector<std::string>& texts)
+            {
+                for (const std::string& text : texts) options.patterns.push_back(parse_pattern(text));
+            },
+            "Made-up keys: random, nearly-sorted, equal, camera-sweep; all unless given")
+        ->delimiter(',')
+        ->type_name("P,...")
+        ->group(input);
+    command.add_option("--strategies", options.strategies, "Only these sorts, as scenes name them")
+        ->delimiter(',')
+        ->type_name("S,...")
+        ->group(input);
+    command.add_flag("--table-4-1", options.table_4_1, "The report's Table 4.1 beside the same sizes here")
+        ->group(input);
+    add_scene_options(command, options.overrides);
+    command.add_option("--out", options.out, "The table as x.csv or x.json. May be repeated")
+        ->type_name("FILE")
+        ->allow_extra_args(false)
+        ->group("Output");
+    add_backend(command, options.backend, "The machine");
 }
 
 }  // namespace
@@ -240,6 +353,8 @@ int run_command_line(int argc, char** argv)
     ExplainOptions explain_options;
     add_run(app, run_options);
     add_explain(app, explain_options);
+    SortsOptions sorts_options;
+    add_sorts(app, sorts_options);
     app.add_subcommand("info", "Backend, processor, GL renderer and libraries of this build and machine");
     app.add_subcommand("scenes", "List the shipped scenes");
     try
@@ -253,6 +368,7 @@ int run_command_line(int argc, char** argv)
     }
     if (app.got_subcommand("run")) return run(run_options);
     if (app.got_subcommand("explain")) return explain(explain_options);
+    if (app.got_subcommand("sorts")) return study_sorts(sorts_options);
     if (app.got_subcommand("info")) return info();
     return list_scenes();
 }

@@ -12,5 +12,6 @@ int run(const RunOptions& options);
 int explain(const ExplainOptions& options);
 int info();
 int list_scenes();
+int study_sorts(const SortsOptions& options);
 
 }  // namespace spindrift::app

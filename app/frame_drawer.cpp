@@ -55,8 +55,11 @@ void FrameDrawer::draw(const View& view, double time_s)
     const gl::FramePlan frame = plan(view, time_s, counts);
     plans_.add(frame);
     if (frame.runs("cull"))
-        list_ = simulator_.prepare(
-            view, {frame.runs("sort") ? scene_.render.sort : "none", scene_.render.depth_bits});
+    {
+        SortSettings settings = sort();
+        if (!frame.runs("sort")) settings.strategy = "none";
+        list_ = simulator_.prepare(view, settings);
+    }
     else if (counts.alive == 0)
         list_ = {};
     stale_ = false;

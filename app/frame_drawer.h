@@ -26,7 +26,10 @@ class FrameDrawer
 
     gl::Renderer& renderer() { return renderer_; }
     const PlanLog& plans() const { return plans_; }
-    SortSettings sort() const { return {scene_.render.sort, scene_.render.depth_bits}; }
+    SortSettings sort() const
+    {
+        return {scene_.render.sort, scene_.render.depth_bits, scene_.render.sort_passes_per_frame};
+    }
     void set_sort(const std::string& strategy);
 
     /// Flakes drawn and culled, one sample a frame.

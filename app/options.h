@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cpu/cpu_backend.h"
+#include "measure/sort_keys.h"
 #include "scene/scene.h"
 
 namespace spindrift::app
@@ -47,6 +48,19 @@ inline cpu::CpuOptions cpu_options(const RunOptions& options)
     cpu.simd = options.simd.value_or(cpu.simd);
     return cpu;
 }
+
+/// What `spindrift sorts` was asked for.
+struct SortsOptions
+{
+    std::string scene;  ///< empty: none
+    scene::SceneOverrides overrides;
+    std::vector<std::size_t> sizes;             ///< empty: the usual
+    std::vector<measure::KeyPattern> patterns;  ///< empty: all
+    std::vector<std::string> strategies;        ///< empty: all
+    std::string backend = "auto";               ///< auto: all that are there
+    bool table_4_1 = false;
+    std::vector<std::filesystem::path> out;
+};
 
 struct ExplainOptions
 {

@@ -10,6 +10,7 @@
 #include "app/find_scene.h"
 #include "app/machine.h"
 #include "app/run_loop.h"
+#include "app/sort_choice.h"
 #include "app/window_loop.h"
 #include "core/error.h"
 #include "image/whole_file.h"
@@ -45,6 +46,7 @@ RunInput read_input(const RunOptions& options)
     const BackendChoice choice = choose_backend(options, cuda_support());
     scene::Scene scene = scene::read_scene(find_scene(options.scene), options.overrides);
     if (options.depth_bits) scene.render.depth_bits = *options.depth_bits;
+    scene.render.sort = choose_sort(choice.name, scene.render.sort);
     scene::Geometry geometry = scene::read_geometry(scene);
     World world = scene::make_world(scene, geometry);
     return {std::move(scene), std::move(geometry), std::move(world), choice};

@@ -41,7 +41,9 @@ Json machine_json(const RunReport& report)
         backend["simd"] = report.simd;
         backend["threads"] = report.threads;
     }
-    Json machine = {{"backend", backend}, {"flake_memory", report.flake_memory}};
+    Json machine = {{"backend", backend},
+                    {"flake_memory", report.way.memory},
+                    {"interop", {{"shared", report.way.shared}, {"why", report.way.because}}}};
     if (report.gl)
         machine["gl"] = {{"platform", report.gl->platform},
                          {"renderer", report.gl->renderer},
@@ -133,6 +135,7 @@ Json drawn_json(const DrawnFlakes& flakes)
 {
     return {{"sort", flakes.sort.strategy},
             {"depth_bits", flakes.sort.depth_bits},
+            {"passes_per_frame", flakes.sort.passes_per_frame},
             {"drawn_median", quantile(flakes.drawn, 0.5)},
             {"culled_median", quantile(flakes.culled, 0.5)}};
 }

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "app/frame_drawer.h"
+#include "app/sort_choice.h"
 #include "gl/window.h"
 #include "scene/make_world.h"
 
@@ -24,11 +25,12 @@ using Clock = std::chrono::steady_clock;
 /// A frame that took longer than this slows the snow down instead of asking for ever more steps.
 constexpr double kLongestCatchUp_s = 0.1;
 
-std::string next_strategy(const Backend& backend, const std::string& now)
+std::string next_strategy(std::string_view backend, const std::string& now)
 {
-    const std::vector<std::string> names = backend.sorts();
-    const auto found = std::find(names.begin(), names.end(), now);
-    return found == names.end() || found + 1 == names.end() ? names.front() : *(found + 1);
+    const auto table = sorts_of(backend);
+    const auto found = std::ranges::find(table, now, &SortName::name);
+    const auto next = found == table.end() || found + 1 == table.end() ? table.begin() : found + 1;
+    return std::string(next->name);
 }
 
 /// Indices of World::anchors that stand for the camera.
@@ -64,7 +66,7 @@ class WindowRun
         if (window_.step_once())
             time_s_ = static_cast<double>(simulator_.backend().step_number() + 1) * run_.input.world.step_s;
         if (window_.next_sort())
-            drawer_.set_sort(next_strategy(simulator_.backend(), drawer_.sort().strategy));
+            drawer_.set_sort(next_strategy(run_.input.choice.name, drawer_.sort().strategy));
         const View view = window_.view(scene::camera_at(run_.input.scene, time_s_));
         carry_skies(view);
         // The margin forgives rounding, as in FrameClock.

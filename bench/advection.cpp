@@ -9,12 +9,14 @@
 #include <benchmark/benchmark.h>
 #include <tbb/task_arena.h>
 
-#include "bench/timing.h"
 #include "core/world.h"
 #include "cpu/cpu_backend.h"
+#include "measure/timing.h"
 
 namespace spindrift::bench
 {
+
+using namespace measure;
 
 namespace
 {

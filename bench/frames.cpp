@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "bench/drawn_scene.h"
-#include "bench/timing.h"
 #include "image/compare.h"
+#include "measure/timing.h"
 
 // Rows frame/SCENE/SIZE/FLAKES: a whole frame (simulation steps, culling, sort, every drawing pass until the
 // picture is there), its stages, and the bare draw of the same points in the same run; medians over the
@@ -15,6 +15,8 @@
 
 namespace spindrift::bench
 {
+
+using namespace measure;
 
 namespace
 {

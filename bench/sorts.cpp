@@ -13,23 +13,23 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include "bench/pinned_threads.h"
-#include "bench/sort_keys.h"
-#include "bench/timing.h"
-#include "cpu/huge_pages.h"
-#include "cpu/sort/strategy.h"
+#include "cpu/sort/inversions.h"
+#include "measure/pinned_threads.h"
+#include "measure/sort_contender.h"
+#include "measure/sort_keys.h"
+#include "measure/timing.h"
 
-// Rows sort/PATTERN/SIZE/STRATEGY[/BITS-bit]. All rows of one pattern and size are measured together,
+// Rows sort/PATTERN/SIZE/[cuda/]STRATEGY[/BITS-bit]. All rows of one pattern and size are measured together,
 // strategy after strategy within each round, so that what else the machine does hits all of them; a row
-// reports its median.
+// reports its median. Those on a device are timed by its events.
 
 namespace spindrift::bench
 {
 
+using namespace measure;
+
 namespace
 {
-
-using cpu::SortStrategy;
 
 struct Size
 {
@@ -41,45 +41,14 @@ struct Size
 constexpr std::array kSizes{Size{"15K", 15'000},   Size{"65K", 65'000},    Size{"250K", 250'000},
                             Size{"500K", 500'000}, Size{"1M", 1'000'000},  Size{"2M", 2'000'000},
                             Size{"4M", 4'000'000}, Size{"16M", 16'000'000}};
-constexpr std::array kPatterns{KeyPattern::random, KeyPattern::nearly_sorted, KeyPattern::equal,
-                               KeyPattern::camera_sweep};
+constexpr int kPasses = 8;  // a frame, of sorts over frames; the default of scenes
 
-struct Contender
+// What the floor of a row moves. A library says nothing of its passes: it must at least read and write each
+// pair once.
+double floor_bytes(const SortTraits& traits, std::size_t n)
 {
-    const SortStrategy* strategy;
-    int key_bits;
-
-    bool is_library() const
-    {
-        constexpr std::array<std::string_view, 5> libraries{"qsort", "std", "std-par", "vqsort",
-                                                            "block-indirect"};
-        return std::ranges::find(libraries, strategy->name) != libraries.end();
-    }
-
-    std::string row_name() const
-    {
-        const bool full = key_bits == strategy->max_key_bits;
-        return full ? std::string(strategy->name) : fmt::format("{}/{}-bit", strategy->name, key_bits);
-    }
-
-    // What its passes must move: K + 2P(K + V) with pairs of 8 bytes that are read whole. Two passes do for
-    // 24 and 16 bits. A library says nothing of its passes: it must at least read and write each pair once.
-    double bytes_per_pair() const
-    {
-        if (strategy->bytes_moved_per_pair_32 == 0) return 16;
-        return key_bits == strategy->max_key_bits ? strategy->bytes_moved_per_pair_32 : 8 + 2 * 16;
-    }
-};
-
-std::vector<Contender> contenders()
-{
-    std::vector<Contender> all;
-    for (const SortStrategy& strategy : cpu::sort_strategies())
-        if (strategy.sort) all.push_back({&strategy, strategy.max_key_bits});
-    const SortStrategy* radix = cpu::find_sort_strategy("radix");
-    all.push_back({radix, 24});
-    all.push_back({radix, 16});
-    return all;
+    const double own = traits.bytes_per_pair(n, kPasses);
+    return own == 0 ? 16 : own;
 }
 
 /// The series of all contenders on one input.
@@ -87,32 +56,35 @@ class Comparison
 {
   public:
     Comparison(KeyPattern pattern, std::size_t n)
-        : n_(n), source_(pattern, n), pairs_(n), scratch_(n), contenders_(contenders())
+        : n_(n), source_(pattern, n), contenders_(make_contenders({}, n, source_.slots()))
     {
-        for (auto* array : {&pairs_, &scratch_})  // as the program's draw list
-            cpu::ask_for_huge_pages(array->data(), n * sizeof(std::uint64_t));
-        sort_ms_.resize(contenders_.size());
-        floor_ms_.resize(contenders_.size());
+        series_.resize(contenders_.size());
         measure();
+        contenders_.clear();
     }
 
-    void report(benchmark::State& state, std::size_t row) const
+    void report(benchmark::State& state, const SortTraits& traits, std::size_t row) const
     {
-        const double median_ms = quantile(sort_ms_[row], 0.5);
-        double library_ms = std::numeric_limits<double>::infinity();
-        for (std::size_t i = 0; i < contenders_.size(); ++i)
-            if (contenders_[i].is_library()) library_ms = std::min(library_ms, quantile(sort_ms_[i], 0.5));
-
+        const double median_ms = quantile(series_[row].sort_ms, 0.5);
+        const double floor_ms = quantile(series_[row].floor_ms, 0.5);
         for (auto _ : state) state.SetIterationTime(median_ms * 1e-3);
         state.counters["ns/pair"] = median_ms * 1e6 / static_cast<double>(n_);
-        state.counters["x_floor"] = median_ms / quantile(floor_ms_[row], 0.5);
-        state.counters["x_best_library"] = median_ms / library_ms;
-        state.counters["fastest_ms"] = quantile(sort_ms_[row], 0);
-        state.counters["rounds"] = static_cast<double>(sort_ms_[row].size());
-        state.counters["bytes/pair"] = contenders_[row].bytes_per_pair();
+        state.counters["x_floor"] = median_ms / floor_ms;
+        state.counters["of_copy_speed"] = floor_ms / median_ms;
+        state.counters["x_best_library"] = median_ms / best_library_ms_.at(traits.backend);
+        state.counters["fastest_ms"] = quantile(series_[row].sort_ms, 0);
+        state.counters["rounds"] = static_cast<double>(series_[row].sort_ms.size());
+        state.counters["bytes/pair"] = floor_bytes(traits, n_);
+        if (traits.network) state.counters["inversion_fraction"] = series_[row].inversions;
     }
 
   private:
+    struct Series
+    {
+        std::vector<double> sort_ms, floor_ms;
+        double inversions = 0;  // after the last round
+    };
+
     void measure()
     {
         constexpr std::size_t kFewestRounds = 5;
@@ -126,11 +98,12 @@ class Comparison
             for (std::size_t i = 0; i < contenders_.size(); ++i)
             {
                 if (round >= kFewestRounds && spent_ms[i] > kEnough_ms) continue;
-                sort_ms_[i].push_back(time_sort(contenders_[i]));
-                floor_ms_[i].push_back(time_floor(contenders_[i]));
-                spent_ms[i] += sort_ms_[i].back();
+                run(*contenders_[i], series_[i]);
+                spent_ms[i] += series_[i].sort_ms.back();
             }
         }
+        for (std::size_t i = 0; i < contenders_.size(); ++i)
+            note_library(contenders_[i]->traits(), series_[i]);
     }
 
     void next_frame()
@@ -143,52 +116,32 @@ class Comparison
         }
     }
 
-    // The parallel copy also wakes the workers, as the culling before a sort does. Returns the number of
-    // pairs.
-    std::size_t refill(int key_bits)
+    void run(SortContender& contender, Series& series)
     {
-        const auto& input = inputs_.at(key_bits);
-        parallel_copy(pairs_.data(), input.data(), input.size() * sizeof(std::uint64_t));
-        return input.size();
+        const SortTraits& traits = contender.traits();
+        contender.load(inputs_.at(traits.key_bits));
+        series.sort_ms.push_back(contender.sort_ms(kPasses, SortStart::as_kept));
+        const auto result = contender.result();
+        if (traits.network)
+            series.inversions = cpu::inversion_fraction(result);
+        else if (!std::is_sorted(result.begin(), result.end()))
+            std::abort();  // a time for a wrong order means nothing
+        series.floor_ms.push_back(contender.copy_ms(floor_bytes(traits, n_)));
     }
 
-    double time_sort(const Contender& contender)
+    void note_library(const SortTraits& traits, const Series& series)
     {
-        const std::size_t n = refill(contender.key_bits);
-        const cpu::SortJob job{pairs_.data(), scratch_.data(), n, contender.key_bits};
-        const std::uint64_t* sorted = nullptr;
-        const bool own_threads = contender.strategy->name == "block-indirect";
-        const auto free = own_threads ? std::make_unique<AnyCore>() : nullptr;
-        const double ms = time_ms([&] { sorted = contender.strategy->sort(job); });
-        if (!std::is_sorted(sorted, sorted + job.n)) std::abort();  // a time for a wrong order means nothing
-        return ms;
-    }
-
-    // Copies between the two arrays to and fro until the bytes that the contender's passes must move have
-    // moved.
-    double time_floor(const Contender& contender)
-    {
-        const std::size_t n = refill(contender.key_bits);
-        const double array_bytes = static_cast<double>(n * sizeof(std::uint64_t));
-        return time_ms(
-            [&]
-            {
-                std::uint64_t* from = pairs_.data();
-                std::uint64_t* to = scratch_.data();
-                for (double copies = contender.bytes_per_pair() / 16; copies > 0; copies -= 1)
-                {
-                    parallel_copy(to, from, static_cast<std::size_t>(std::min(copies, 1.0) * array_bytes));
-                    std::swap(from, to);
-                }
-            });
+        auto [best, is_new] =
+            best_library_ms_.try_emplace(traits.backend, std::numeric_limits<double>::infinity());
+        if (traits.library) best->second = std::min(best->second, quantile(series.sort_ms, 0.5));
     }
 
     std::size_t n_;
     PairSource source_;
     std::map<int, std::vector<std::uint64_t>> inputs_{{32, {}}, {24, {}}, {16, {}}};  // by key bits
-    std::vector<std::uint64_t> pairs_, scratch_;
-    std::vector<Contender> contenders_;
-    std::vector<std::vector<double>> sort_ms_, floor_ms_;
+    std::vector<std::unique_ptr<SortContender>> contenders_;
+    std::vector<Series> series_;
+    std::map<std::string, double> best_library_ms_;  // by backend
 };
 
 // Kept until a row of another input is asked for.
@@ -207,15 +160,15 @@ const Comparison& comparison_of(KeyPattern pattern, std::size_t n)
 
 bool register_rows()
 {
-    const auto all = contenders();
-    for (const KeyPattern pattern : kPatterns)
+    const auto all = list_sorts({});
+    for (const KeyPattern pattern : kKeyPatterns)
         for (const Size& size : kSizes)
             for (std::size_t row = 0; row < all.size(); ++row)
             {
                 const auto name =
-                    fmt::format("sort/{}/{}/{}", pattern_name(pattern), size.name, all[row].row_name());
-                benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state)
-                                             { comparison_of(pattern, size.n).report(state, row); })
+                    fmt::format("sort/{}/{}/{}", pattern_name(pattern), size.name, all[row].name);
+                benchmark::RegisterBenchmark(name.c_str(), [=, traits = all[row]](benchmark::State& state)
+                                             { comparison_of(pattern, size.n).report(state, traits, row); })
                     ->UseManualTime()
                     ->Iterations(1)
                     ->Unit(benchmark::kMillisecond);

@@ -49,8 +49,9 @@ struct StageTimes
 
 struct SortSettings
 {
-    std::string strategy = "radix";  ///< a name from the backend's table
-    int depth_bits = 32;             ///< 32, 24 or 16
+    std::string strategy = "auto";  ///< a name from the backend's table; auto: its exact sort of general use
+    int depth_bits = 32;            ///< 32, 24 or 16
+    int passes_per_frame = 8;       ///< steps that a sort over frames takes; at least 1
 };
 
 /// Moves and orders the flakes of one World. Implementations: cpu::CpuBackend, gpu::CudaBackend.
@@ -77,8 +78,6 @@ class Backend
     /// Fills the draw list: culls against the view, makes depth keys, sorts far to near. Equal keys order by
     /// id. Throws Error for a strategy that this backend has not got.
     virtual DrawList prepare(const View& view, const SortSettings& sort) = 0;
-    /// Names of the strategies that prepare() takes.
-    virtual std::vector<std::string> sorts() const = 0;
 
     /// The newest that are known; a device may be some steps ahead of them until finish().
     virtual FlakeCounts counts() const = 0;

@@ -114,13 +114,6 @@ class CpuBackend final : public Backend
         return result;
     }
 
-    std::vector<std::string> sorts() const override
-    {
-        std::vector<std::string> names;
-        for (const SortStrategy& strategy : sort_strategies()) names.emplace_back(strategy.name);
-        return names;
-    }
-
     FlakeCounts counts() const override { return state_.counts; }
     std::uint64_t step_number() const override { return state_.step; }
     std::uint64_t slots_used() const override { return state_.used; }
@@ -229,6 +222,7 @@ void CpuBackend::compact()
     const StageTimer timer(times_.compact);
     compact_(flakes_, state_.used);
     state_.close_holes();
+    list_.slots_renumbered();
 }
 
 void CpuBackend::reorder()
@@ -236,6 +230,7 @@ void CpuBackend::reorder()
     const StageTimer timer(times_.compact);
     reorder_by_cell({job_.grid, flakes_}, state_.used, state_.counts.alive, list_memory_);
     state_.close_holes();
+    list_.slots_renumbered();
 }
 
 DrawList CpuBackend::prepare_in_arena(const View& view, const SortSettings& sort)
@@ -248,8 +243,8 @@ DrawList CpuBackend::prepare_in_arena(const View& view, const SortSettings& sort
     }
     result.culled = state_.counts.alive - result.count;
     const StageTimer timer(times_.sort);
-    list_.sort(strategy, sort, result);
-    if (reorder_every_ > 0 && result.sorted)
+    list_.sort(strategy, sort, view, result);
+    if (reorder_every_ > 0 && result.sorted && !strategy.network)
         order_ties(result.in_scratch ? list_memory_.scratch : list_memory_.pairs, result.count, flakes_.id,
                    static_cast<std::uint32_t>(state_.next_id));
     return result;
@@ -318,6 +313,7 @@ void CpuBackend::restore(const Snapshot& s)
     emission_.restore(s.emitter_state.data());
     anchors_.restore(s.emitter_state.data() + 2 * world.emitters.size());
     state_ = {s.counts, s.step, s.next_id, s.counts.alive};
+    list_.slots_renumbered();
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ int key_bits(const SortSettings& settings, const SortStrategy& strategy)
 }  // namespace
 
 DrawListMaker::DrawListMaker(const DrawListView& view, std::size_t capacity)
-    : view_(view), starts_(chunk_count(capacity) + 1)
+    : view_(view), capacity_(capacity), starts_(chunk_count(capacity) + 1)
 {
     for (std::uint64_t* array : {view.pairs, view.scratch})
         ask_for_huge_pages(array, capacity * sizeof(std::uint64_t));
@@ -40,7 +40,8 @@ const SortStrategy& DrawListMaker::strategy(const SortSettings& settings)
     std::string names;
     for (const SortStrategy& s : sort_strategies())
         names += (names.empty() ? "" : ", ") + std::string(s.name);
-    throw Error(fmt::format("sort = \"{}\" is not known; use one of {}", settings.strategy, names));
+    throw Error(fmt::format("sort = \"{}\" is no sort of the CPU backend; use auto or one of {}",
+                            settings.strategy, names));
 }
 
 DrawList DrawListMaker::fill(const KernelTable& kernels, const FlakeView& flakes, std::size_t used,
@@ -69,12 +70,29 @@ DrawList DrawListMaker::fill(const KernelTable& kernels, const FlakeView& flakes
     return list;
 }
 
-void DrawListMaker::sort(const SortStrategy& strategy, const SortSettings& settings, DrawList& list) const
+const std::uint64_t* DrawListMaker::sort_over_frames(const SortJob& job, Network network, int passes,
+                                                     const View& view)
 {
-    if (strategy.sort == nullptr) return;
+    if (passes < 1) throw Error(fmt::format("passes per frame = {} sorts nothing; use 1 or more", passes));
+    if (!pass_sorter_ || pass_sorter_->network() != network)
+    {
+        pass_sorter_.emplace(network, capacity_);
+        kept_order_.forget();
+    }
+    return pass_sorter_->sort(job, passes, kept_order_.next(view));
+}
+
+void DrawListMaker::sort(const SortStrategy& strategy, const SortSettings& settings, const View& view,
+                         DrawList& list)
+{
     const SortJob job{view_.pairs, view_.scratch, list.count, key_bits(settings, strategy)};
-    list.in_scratch = strategy.sort(job) == view_.scratch;
-    list.sorted = true;
+    if (strategy.network)
+        list.in_scratch =
+            sort_over_frames(job, *strategy.network, settings.passes_per_frame, view) == job.scratch;
+    else
+        kept_order_.forget();
+    if (strategy.sort != nullptr) list.in_scratch = strategy.sort(job) == job.scratch;
+    list.sorted = strategy.network || strategy.sort != nullptr;
 }
 
 }  // namespace spindrift::cpu

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/backend.h"
+#include "core/kept_order.h"
 #include "core/view.h"
 #include "cpu/kernels.h"
+#include "cpu/sort/passes.h"
 #include "cpu/sort/strategy.h"
 
 namespace spindrift::cpu
@@ -25,10 +28,19 @@ class DrawListMaker
     DrawList fill(const KernelTable& kernels, const FlakeView& flakes, std::size_t used, const View& view,
                   const SortSettings& settings, const SortStrategy& strategy);
 
-    void sort(const SortStrategy& strategy, const SortSettings& settings, DrawList& list) const;
+    /// `view`: the one that the list was filled for.
+    void sort(const SortStrategy& strategy, const SortSettings& settings, const View& view, DrawList& list);
+
+    /// From now on slots stand for other flakes: sorts over frames begin anew.
+    void slots_renumbered() { kept_order_.forget(); }
 
   private:
+    const std::uint64_t* sort_over_frames(const SortJob& job, Network network, int passes, const View& view);
+
     DrawListView view_;
+    std::size_t capacity_;
+    std::optional<PassSorter> pass_sorter_;  ///< once it is asked for
+    KeptOrder kept_order_;
     std::vector<std::size_t> starts_;  ///< where each chunk's pairs begin
 };
 

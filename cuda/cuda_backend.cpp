@@ -64,8 +64,6 @@ class CudaBackend final : public Backend
     void step() override;
     DrawList prepare(const View& view, const SortSettings& sort) override;
 
-    std::vector<std::string> sorts() const override { return DrawSort::names(); }
-
     FlakeCounts counts() const override { return late_.newest().state.counts; }
     std::uint64_t step_number() const override { return step_; }
     std::uint64_t slots_used() const override { return late_.newest().state.used; }
@@ -191,13 +189,13 @@ void CudaBackend::step()
     late_.ask(stream_, control());
 }
 
-DrawList CudaBackend::prepare(const View& view, const SortSettings& sort)
+DrawList CudaBackend::prepare(const View& view, const SortSettings& settings)
 {
-    DrawSort::check_settings(sort);
+    const SortStrategy& strategy = DrawSort::strategy(settings);
     const FlakeAddresses& at = addresses();
     cull_clock_.begin(stream_);
-    list_visible(stream_, world_.step().control, capacity_, at, frustum(view, sort.depth_bits),
-                 selection_.get());
+    list_visible(stream_, world_.step().control, capacity_, at,
+                 frustum(view, DrawSort::key_bits(settings, strategy)), selection_.get());
     cull_clock_.mark(stream_, 0);
     // the one wait of a frame: a sort must be told how many pairs there are (docs/decisions/012)
     late_.ask(stream_, control());
@@ -205,14 +203,12 @@ DrawList CudaBackend::prepare(const View& view, const SortSettings& sort)
     DrawList list;
     list.count = now.visible;
     list.culled = now.state.counts.alive - now.visible;
-    if (sort.strategy == "none") return list;
     sort_clock_.begin(stream_);
-    std::uint64_t* const sorted = sort_(stream_, sort, at.draw_list, list.count);
-    if (reorders_)
-        order_ties(stream_, sorted, list.count, at.flakes.id, static_cast<std::uint32_t>(now.state.next_id));
+    sort_(stream_, strategy, settings, view, now.renumbered, at.draw_list, list);
+    if (reorders_ && list.sorted && !strategy.network)
+        order_ties(stream_, list.in_scratch ? at.draw_list.scratch : at.draw_list.pairs, list.count,
+                   at.flakes.id, static_cast<std::uint32_t>(now.state.next_id));
     sort_clock_.mark(stream_, 0);
-    list.in_scratch = sorted == at.draw_list.scratch;
-    list.sorted = true;
     return list;
 }
 

@@ -3,31 +3,39 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <string>
-#include <vector>
+#include <memory>
+#include <optional>
 
 #include "core/backend.h"
-#include "cuda/buffer.h"
+#include "core/kept_order.h"
+#include "cuda/sort/strategy.h"
+#include "cuda/stream.h"
 
 namespace spindrift::gpu
 {
 
-/// Sorts draw lists by depth key; equal keys keep their order.
+/// Sorts draw lists by the strategy that is asked for; its working memory is made when it is first asked for.
 class DrawSort
 {
   public:
-    explicit DrawSort(std::size_t capacity);
+    explicit DrawSort(std::size_t capacity) : capacity_(capacity) {}
 
-    static std::vector<std::string> names() { return {"none", "radix"}; }
-    /// Throws Error for a strategy or key width that there is not.
-    static void check_settings(const SortSettings& settings);
+    /// Throws Error, with the names of the table, if it has not got the one that is asked for.
+    static const SortStrategy& strategy(const SortSettings& settings);
+    /// Of the keys to make. Throws Error for a width that there is not.
+    static int key_bits(const SortSettings& settings, const SortStrategy& strategy);
 
-    /// Queues the sort of n pairs and returns which of the two arrays they will be in.
-    std::uint64_t* operator()(StreamRef stream, const SortSettings& settings, const DrawListView& list,
-                              std::size_t n) const;
+    /// Queues the sort of list.count pairs, which `view` sees, and sets where they will be. `renumbered`
+    /// differs from last time if slots have changed their flakes since.
+    void operator()(StreamRef stream, const SortStrategy& strategy, const SortSettings& settings,
+                    const View& view, std::uint32_t renumbered, const DrawListView& at, DrawList& list);
 
   private:
-    DeviceBuffer<unsigned char> working_;
+    std::size_t capacity_;
+    std::string_view made_;  ///< name of the strategy that `sort_` is
+    std::unique_ptr<DeviceSort> sort_;
+    KeptOrder kept_order_;
+    std::uint32_t renumbered_ = 0;
 };
 
 }  // namespace spindrift::gpu

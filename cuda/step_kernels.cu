@@ -84,22 +84,6 @@ struct Emit
     }
 };
 
-/// The rare flakes that meet something, out of the way of the others' registers.
-struct OutOfLineResolver
-{
-    EncounterResolver resolve;
-
-    __host__ __device__ OutOfLineResolver(const Surroundings& around, std::uint64_t seed, std::uint32_t step,
-                                          std::uint32_t substep, bool turbulent)
-        : resolve{around, seed, step, substep, turbulent}
-    {
-    }
-    __host__ __device__ __noinline__ void operator()(Encounter& f, const BlockTally& tally) const
-    {
-        resolve(f, tally);
-    }
-};
-
 template <class WindField, bool Turbulent>
 struct Advect
 {
@@ -112,8 +96,8 @@ struct Advect
 
     __device__ void operator()(std::size_t i, const BlockTally& tally) const
     {
-        const FlakeAdvector<float, WindField, Turbulent, OutOfLineResolver> advector{
-            now(step, *control), wind, fall_speed, around, flakes};
+        const FlakeAdvector<float, WindField, Turbulent> advector{now(step, *control), wind, fall_speed,
+                                                                  around, flakes};
         advector(i, tally);
     }
 };

@@ -51,6 +51,7 @@ struct Renderer::Impl
     Buffer light_buffer;
     std::size_t light_room = 0;
     PassTimers timers;
+    bool fenced;  // the host writes the flakes
     GLsync flakes_read = nullptr;
 
     Impl(const scene::Scene& s, const scene::Geometry& geometry, const World& w, const FlakeBuffers& buffers,
@@ -66,7 +67,8 @@ struct Renderer::Impl
           tone("tone.vert", "tone.frag"),
           depth_tiles("tone.vert", "depth_tiles.frag"),
           flakes(s.render, static_cast<double>(w.snow.weight), buffers),
-          frame_block(make_buffer(sizeof(FrameConstants), nullptr, GL_DYNAMIC_STORAGE_BIT))
+          frame_block(make_buffer(sizeof(FrameConstants), nullptr, GL_DYNAMIC_STORAGE_BIT)),
+          fenced(buffers.access() == FlakeBuffers::Access::mapped)
     {
     }
     ~Impl()
@@ -162,6 +164,7 @@ void Renderer::Impl::draw_flakes(const FramePlan& plan, const View& view, const 
     if (!plan.runs("flakes")) return;
     glBindTextureUnit(kMasks, mask_texture.name());
     timed("flakes", [&] { flakes.draw({view, list, fades ? picture.depth_copy.name() : 0, lights}); });
+    if (!fenced) return;
     if (flakes_read != nullptr) glDeleteSync(flakes_read);
     flakes_read = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
 }

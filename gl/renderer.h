@@ -36,7 +36,7 @@ class Renderer
     void draw(const FramePlan& plan, const View& view, const DrawList& flakes, double time_s);
 
     /// Blocks until the GPU has read the flakes of the last draw(); call it before a backend writes them
-    /// again.
+    /// again. Returns at once if the buffers are not mapped: who writes those is ordered behind GL.
     void wait_for_flakes() const;
 
     void resize(int width_px, int height_px);

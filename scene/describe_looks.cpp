@@ -213,7 +213,7 @@ void describe_render(Section& section, RenderSettings& render)
     section.choice({.name = "sprite", .about = "grown crystals, or plain points"}, kSprites, render.sprite);
     std::size_t sort = static_cast<std::size_t>(std::find(kSortNames.begin(), kSortNames.end(), render.sort) -
                                                 kSortNames.begin());
-    section.choice({.name = "sort", .about = "strategy of the depth sort; also --sort"},
+    section.choice({.name = "sort", .about = "strategy of the depth sort (docs/sorting.md); also --sort"},
                    std::span<const std::string_view>(kSortNames), sort);
     render.sort = kSortNames.at(sort);
     section.whole(
@@ -221,6 +221,9 @@ void describe_render(Section& section, RenderSettings& render)
         {.min = 16, .max = 32, .allowed = "16, 24 or 32"}, render.depth_bits);
     section.require(render.depth_bits % 8 == 0, "depth_bits",
                     "is not a width that the sorts have (whole bytes)", "use 16, 24 or 32");
+    section.whole({.name = "sort_passes_per_frame",
+                   .about = "steps of bitonic-passes and odd-even-passes; also --sort-passes"},
+                  {.min = 1, .max = 4096}, render.sort_passes_per_frame);
     section.number({.name = "exposure", .about = "factor on all light before the tone curve"},
                    {.min = 0, .max = 1e6, .above_min = true}, render.exposure);
     section.number({.name = "flake_opacity", .about = "at the centre of a flake"}, kShare,

@@ -173,8 +173,9 @@ struct RenderSettings
     double warm_up_s = 0;  ///< simulated before the first frame
     Blending blending = Blending::over;
     Sprite sprite = Sprite::crystal;
-    std::string sort = "radix";
+    std::string sort = "auto";
     int depth_bits = 32;
+    int sort_passes_per_frame = 8;  ///< steps of the sorts over frames
     double exposure = 1;
     double flake_opacity = 0.9;  ///< at the centre of a flake, 0..1
     double flake_scale = 1;      ///< drawn size over real size; light is kept by weight / scale^2
@@ -210,6 +211,7 @@ struct SceneOverrides
     std::optional<std::uint64_t> seed;
     std::optional<std::int64_t> reorder_every_steps;
     std::optional<std::string> sort;
+    std::optional<int> sort_passes_per_frame;
     std::optional<int> width_px, height_px, frames;
     std::optional<double> frames_per_s;
     std::optional<std::filesystem::path> winds_file, turbulence_file;

@@ -13,7 +13,9 @@
     ROW(radix)               \
     ROW(counting16)          \
     ROW(vqsort)              \
-    ROW(block_indirect)
+    ROW(block_indirect)      \
+    ROW(bitonic_passes)      \
+    ROW(odd_even_passes)
 
 namespace spindrift::cpu
 {
@@ -35,6 +37,8 @@ std::span<const SortStrategy> sort_strategies()
 
 const SortStrategy* find_sort_strategy(std::string_view name)
 {
+    if (name == "auto") name = "radix";
+    if (name == "passes") name = "bitonic-passes";
     const auto table = sort_strategies();
     const auto row = std::ranges::find(table, name, &SortStrategy::name);
     return row == table.end() ? nullptr : &*row;

@@ -37,7 +37,7 @@ TEST_F(Command, HelpNamesEverySubcommandAndGivesExamples)
 {
     const Finished help = run_command({"--help"});
     EXPECT_EQ(help.exit_code, 0);
-    for (const char* word : {"run", "explain", "info", "scenes", "Examples:", "130"})
+    for (const char* word : {"run", "explain", "sorts", "info", "scenes", "Examples:", "130"})
         EXPECT_THAT(help.output, HasSubstr(word));
     EXPECT_EQ(help.error, "");
 }
@@ -47,10 +47,10 @@ TEST_F(Command, HelpOfRunNamesEveryOption)
     const Finished help = run_command({"run", "--help"});
     EXPECT_EQ(help.exit_code, 0);
     for (const char* option :
-         {"--headless",      "--frames",        "--out",       "--size", "--fps",        "--backend",
-          "--threads",       "--simd",          "--particles", "--sort", "--depth-bits", "--seed",
-          "--wind",          "--turbulence",    "--stats",     "--hash", "--interop",    "--steps",
-          "--save-snapshot", "--load-snapshot", "radix"})
+         {"--headless", "--frames",        "--out",           "--size",  "--fps",        "--backend",
+          "--threads",  "--simd",          "--particles",     "--sort",  "--depth-bits", "--sort-passes",
+          "--seed",     "--wind",          "--turbulence",    "--stats", "--hash",       "--interop",
+          "--steps",    "--save-snapshot", "--load-snapshot", "radix"})
         EXPECT_THAT(help.output, HasSubstr(option));
 }
 

@@ -127,6 +127,50 @@ TEST_F(Drawing, FullDiskLeavesNothingHalfMade)
     EXPECT_FALSE(std::filesystem::exists(in_folder("x.exr")));
 }
 
+TEST_F(Drawing, SortsAlongACameraPathAreHeldAgainstThePictureInExactOrder)
+{
+    const std::string file = in_folder("t.json");
+    const Finished run = run_command({"sorts", "--scene", small_scene(), "--frames", "4", "--backend", "cpu",
+                                      "--sort-passes", "1", "--out", file});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const json study = json::parse(read(file));
+    EXPECT_NE(study.at("pictures_by"), "");
+    ASSERT_FALSE(study.at("rows").empty());
+    for (const json& row : study.at("rows"))
+    {
+        SCOPED_TRACE(row.dump());
+        EXPECT_EQ(row.at("input"), "camera path of small");
+        EXPECT_GT(row.at("pairs"), 1000);
+        const double error = row.at("image_relative_l2");
+        const bool passes = !row.at("passes_per_frame").is_null();
+        if (row.at("key_bits") == 32 && !passes) EXPECT_EQ(error, 0);
+        if (passes) EXPECT_GT(error, 0);
+        EXPECT_LT(error, 0.5);
+        EXPECT_EQ(error > 0, row.at("inversion_fraction") > 0);
+        EXPECT_GE(row.at("image_relative_l2_worst"), error);
+    }
+}
+
+TEST_F(Drawing, AutoSaysWhichSortItTook)
+{
+    ASSERT_EQ(draw({"--out", in_folder("a.png"), "--stats", in_folder("s.json"), "--backend", "cpu",
+                    "--frames", "1"})
+                  .exit_code,
+              0);
+    EXPECT_EQ(json::parse(read(in_folder("s.json"))).at("draw_list").at("sort"), "radix");
+}
+
+TEST_F(Drawing, PassesDrawWholeFrames)
+{
+    ASSERT_EQ(draw({"--out", in_folder("p.png"), "--stats", in_folder("s.json"), "--sort", "passes",
+                    "--sort-passes", "12"})
+                  .exit_code,
+              0);
+    const json list = json::parse(read(in_folder("s.json"))).at("draw_list");
+    EXPECT_EQ(list.at("sort"), "bitonic-passes");
+    EXPECT_EQ(list.at("passes_per_frame"), 12);
+}
+
 }  // namespace
 
 }  // namespace spindrift::test

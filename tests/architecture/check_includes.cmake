@@ -3,7 +3,7 @@ cmake_minimum_required(VERSION 3.25)
 # cmake -D ROOT=<folder of the parts> -P check_includes.cmake
 # Fails, naming each line, if a part includes what the table of docs/architecture.md does not allow it.
 
-set(parts core image scene cpu cuda gl reference app bench include)
+set(parts core image scene cpu cuda gl reference measure app bench include)
 
 # The parts whose headers a part may include.
 set(core_may core)
@@ -16,8 +16,9 @@ set(interop_may core cuda gl)
 set(gl_may core image scene gl)
 set(reference_may core image scene reference)
 set(include_may core spindrift)
-set(app_may core image scene cpu cuda gl reference app spindrift)
-set(bench_may core image scene cpu cuda gl reference bench)
+set(measure_may core cpu cuda measure)
+set(app_may core image scene cpu cuda gl reference measure app spindrift)
+set(bench_may core image scene cpu cuda gl reference measure bench)
 
 # Headers from outside that a part must not include: core is physics and plain data, scene plain data from files, and
 # only gl draws. The numbers of core come from its own polynomials, never from libm.
@@ -42,7 +43,7 @@ foreach(part IN LISTS parts)
         endif()
         file(STRINGS ${ROOT}/${file} includes REGEX "^[ \t]*#[ \t]*include")
         foreach(line IN LISTS includes)
-            if(line MATCHES "[<\"](core|image|scene|cpu|cuda|gl|reference|app|bench|tests|spindrift)/" AND
+            if(line MATCHES "[<\"](core|image|scene|cpu|cuda|gl|reference|measure|app|bench|tests|spindrift)/" AND
                NOT CMAKE_MATCH_1 IN_LIST ${rules}_may)
                 list(APPEND faults "${file}: ${line} (${rules} may use: ${${rules}_may})")
             elseif(DEFINED ${rules}_never AND line MATCHES "<(${${rules}_never})")

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "cpu/sort/inversions.h"
 #include "worlds.h"
 
 namespace spindrift::cpu::test
@@ -100,6 +101,33 @@ TEST_P(DrawListOf, GoesFromFarToNear)
                       std::sqrt(distance2(run, v, static_cast<std::uint32_t>(list[i]))));
         for (const std::uint64_t pair : list) ASSERT_EQ(bits < 32 ? pair >> 32 >> bits : 0, 0U);
     }
+}
+
+TEST_P(DrawListOf, OfPassesBeginsExactGoesOnAndBeginsAnewWhenSlotsOrViewChange)
+{
+    View v = camera();
+    const auto inversions = [&](const SortSettings& settings)
+    {
+        const std::vector<std::uint64_t> list = pairs(run->prepare(v, settings));
+        EXPECT_GT(list.size(), 500U);
+        return inversion_fraction(list);
+    };
+    const SortSettings two{"passes", 32, 2};
+    EXPECT_EQ(inversions(two), 0) << "nothing to go on from";
+    run.steps(1);
+    const double after_a_step = inversions(two);
+    EXPECT_GT(after_a_step, 0);
+    EXPECT_LT(after_a_step, 0.2);
+    const Snapshot snapshot = run->save();
+    run->restore(snapshot);
+    EXPECT_EQ(inversions(two), 0) << "slots were renumbered";
+    run.steps(1);
+    v.eye = v.eye - Vec3f{6, 0, 0};
+    EXPECT_EQ(inversions(two), 0) << "the view jumped";
+    run.steps(1);
+    inversions({"radix", 32});
+    EXPECT_EQ(inversions(two), 0) << "another sort ran";
+    EXPECT_THROW(inversions({"passes", 32, 0}), Error);
 }
 
 TEST_P(DrawListOf, IsTheSameForEveryInstructionSet)

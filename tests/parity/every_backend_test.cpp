@@ -129,7 +129,7 @@ TEST_P(EveryBackend, HoldsAtEverySize)
         const auto oracle = make_oracle(world);
         for (int i = 0; i < 4; ++i) tested->backend().step(), oracle->backend().step();
         ASSERT_EQ(tested->backend().state_hash(), oracle->backend().state_hash());
-        expect_same_lists(*tested, *oracle, camera(), {"radix", 32});
+        expect_same_lists(*tested, *oracle, camera(), {"auto", 32});
     }
 }
 
@@ -139,10 +139,10 @@ TEST_P(EveryBackend, ListsTheVisibleFromFarToNearAndTiesInOrderOfEmission)
     const auto tested = make(world);
     const auto oracle = make_oracle(world);
     for (int i = 0; i < 15; ++i) tested->backend().step(), oracle->backend().step();
-    for (const int bits : {32, 24, 16}) expect_same_lists(*tested, *oracle, camera(), {"radix", bits});
+    for (const int bits : {32, 24, 16}) expect_same_lists(*tested, *oracle, camera(), {"auto", bits});
     View tied = camera();
     tied.far_m = 1e6F;  // buckets of 15 m
-    expect_same_lists(*tested, *oracle, tied, {"radix", 16});
+    expect_same_lists(*tested, *oracle, tied, {"auto", 16});
     EXPECT_FALSE(tested->backend().prepare(camera(), {"none", 32}).sorted);
 }
 
@@ -152,7 +152,7 @@ TEST_P(EveryBackend, ListsNothingWhereNothingIsSeen)
     for (int i = 0; i < 3; ++i) tested->backend().step();
     View away = camera();
     away.forward = {-0.96F, -0.28F, 0}, away.right = {-0.28F, 0.96F, 0};
-    const DrawList list = tested->backend().prepare(away, {"radix", 32});
+    const DrawList list = tested->backend().prepare(away, {"auto", 32});
     tested->backend().finish();
     EXPECT_EQ(list.count, 0U);
     EXPECT_EQ(list.culled, tested->backend().counts().alive);
@@ -162,7 +162,7 @@ TEST_P(EveryBackend, RefusesASortThatItHasNot)
 {
     const auto tested = make(world_with_everything(100, OnLeave::wrap, true));
     EXPECT_THROW(tested->backend().prepare(camera(), {"bogo", 32}), Error);
-    EXPECT_THROW(tested->backend().prepare(camera(), {"radix", 17}), Error);
+    EXPECT_THROW(tested->backend().prepare(camera(), {"auto", 17}), Error);
 }
 
 TEST_P(EveryBackend, GoesOnFromASnapshotOfAnother)
@@ -224,7 +224,7 @@ TEST_P(EveryBackend, CountsFlakesThatRanAwayAndKeepsThemOutOfTheList)
     EXPECT_TRUE(std::isfinite(tested->backend().extent().upper.z));
     View all = camera();
     all.near_m = 0, all.far_m = 1e6F, all.tan_half_fov_y = 100;
-    const DrawList list = tested->backend().prepare(all, {"radix", 16});
+    const DrawList list = tested->backend().prepare(all, {"auto", 16});
     for (const std::uint64_t pair : tested->pairs(list))
         EXPECT_THAT(pair & 0xFFFFFFFFU, testing::AllOf(testing::Ne(3U), testing::Ne(4U)));
 }

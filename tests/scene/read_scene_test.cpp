@@ -61,7 +61,8 @@ TEST(ReadScene, DefaultsAreThoseOfTheContract)
     EXPECT_FALSE(scene.wind.turbulence) << "still air has no gusts";
     EXPECT_EQ(scene.ground.kind, GroundKind::plane);
     EXPECT_TRUE(scene.emitters.empty());
-    EXPECT_EQ(scene.render.sort, "radix");
+    EXPECT_EQ(scene.render.sort, "auto");
+    EXPECT_EQ(scene.render.sort_passes_per_frame, 8);
     EXPECT_EQ(scene.render.width_px, 1280);
     ASSERT_EQ(scene.camera.keys.size(), 1U);
     EXPECT_EQ(scene.camera.keys[0].eye_m.y, -10);
@@ -186,6 +187,7 @@ TEST(ReadScene, CommandLineComesFirst)
     SceneOverrides overrides;
     overrides.seed = UINT64_MAX;
     overrides.sort = "qsort";
+    overrides.sort_passes_per_frame = 3;
     overrides.width_px = 64;
     overrides.height_px = 32;
     overrides.frames = 2;
@@ -194,6 +196,7 @@ TEST(ReadScene, CommandLineComesFirst)
     const Scene scene = parse(with("[render]\nsort = \"bogo\"\nframes = 90\n"), overrides);
     EXPECT_EQ(scene.seed, UINT64_MAX);
     EXPECT_EQ(scene.render.sort, "qsort");
+    EXPECT_EQ(scene.render.sort_passes_per_frame, 3);
     EXPECT_EQ(scene.render.width_px, 64);
     EXPECT_EQ(scene.render.height_px, 32);
     EXPECT_EQ(scene.render.frames, 2);

@@ -389,16 +389,22 @@ TEST(SceneErrors, NamesTwiceAndReferencesToNobody)
     });
 }
 
+const std::string kSorts =
+    "use auto, none, qsort, std, std-par, radix, counting16, vqsort, block-indirect, passes, bitonic-passes, "
+    "odd-even-passes, cub-radix, thrust, cub-merge, bitonic or bucket16";
+
 TEST(SceneErrors, ChoicesNameTheNearest)
 {
-    const std::string sorts = "use none, qsort, std, std-par, radix, counting16, vqsort or block-indirect";
     expect_errors({
         {with("[render]\nsort = \"radx\"\n"),
-         "s.toml:10: render.sort = \"radx\" is not among the choices (nearest: radix); " + sorts},
+         "s.toml:10: render.sort = \"radx\" is not among the choices (nearest: radix); " + kSorts},
         {with("[render]\nsort = \"quick\"\n"),
-         "s.toml:10: render.sort = \"quick\" is not among the choices (strategy of the depth sort; also "
-         "--sort); " +
-             sorts},
+         "s.toml:10: render.sort = \"quick\" is not among the choices (strategy of the depth sort "
+         "(docs/sorting.md); also --sort); " +
+             kSorts},
+        {with("[render]\nsort_passes_per_frame = 0\n"),
+         "s.toml:10: render.sort_passes_per_frame = 0 is below 1 (steps of bitonic-passes and "
+         "odd-even-passes; also --sort-passes); use 1 to 4096"},
         {with("[snow]\ncrystal = \"dendrite\"\n"),
          "s.toml:10: snow.crystal = \"dendrite\" is not among the choices (nearest: dendrites); use "
          "dendrites, plates, rimed or "
@@ -471,9 +477,9 @@ TEST(SceneErrors, CommandLine)
     SceneOverrides overrides;
     overrides.sort = "quick";
     EXPECT_EQ(error_of(kSmallScene, overrides),
-              "command line: render.sort = \"quick\" is not among the choices (strategy of the depth sort; "
-              "also --sort); use none, "
-              "qsort, std, std-par, radix, counting16, vqsort or block-indirect");
+              "command line: render.sort = \"quick\" is not among the choices (strategy of the depth sort "
+              "(docs/sorting.md); also --sort); " +
+                  kSorts);
     overrides = {};
     overrides.frames = 0;
     EXPECT_EQ(error_of(kSmallScene, overrides),

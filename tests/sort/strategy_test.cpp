@@ -157,7 +157,7 @@ TEST(SortStrategies, TableHoldsTheNamesOfTheCommandLine)
     std::vector<std::string_view> names;
     for (const SortStrategy& strategy : sort_strategies()) names.push_back(strategy.name);
     EXPECT_THAT(names, testing::ElementsAre("none", "qsort", "std", "std-par", "radix", "counting16",
-                                            "vqsort", "block-indirect"));
+                                            "vqsort", "block-indirect", "bitonic-passes", "odd-even-passes"));
 }
 
 TEST(SortStrategies, FindsByNameAndOnlyByName)
@@ -165,6 +165,9 @@ TEST(SortStrategies, FindsByNameAndOnlyByName)
     ASSERT_NE(find_sort_strategy("radix"), nullptr);
     EXPECT_EQ(find_sort_strategy("radix")->name, "radix");
     EXPECT_EQ(find_sort_strategy("none")->sort, nullptr);
+    EXPECT_EQ(find_sort_strategy("auto")->name, "radix");
+    EXPECT_EQ(find_sort_strategy("passes")->name, "bitonic-passes");
+    EXPECT_EQ(find_sort_strategy("cub-radix"), nullptr);
     EXPECT_EQ(find_sort_strategy("Radix"), nullptr);
     EXPECT_EQ(find_sort_strategy(""), nullptr);
 }

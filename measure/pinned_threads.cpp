@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/pinned_threads.h"
+#include "measure/pinned_threads.h"
 
 #include <sched.h>
 
@@ -8,7 +8,7 @@
 #include <tbb/info.h>
 #include <tbb/task_arena.h>
 
-namespace spindrift::bench
+namespace spindrift::measure
 {
 
 namespace
@@ -80,4 +80,4 @@ AnyCore::~AnyCore()
     pin_this_thread(0);
 }
 
-}  // namespace spindrift::bench
+}  // namespace spindrift::measure

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/sort_keys.h"
+#include "measure/sort_keys.h"
 
 #include <algorithm>
 #include <bit>
@@ -8,7 +8,7 @@
 #include <random>
 #include <utility>
 
-namespace spindrift::bench
+namespace spindrift::measure
 {
 
 namespace
@@ -67,6 +67,11 @@ PairSource::PairSource(KeyPattern pattern, std::size_t n) : pattern_(pattern), p
     for (std::size_t i = 0; i < n; ++i) pairs_[i] = std::uint64_t{keys[i]} << 32 | i;
 }
 
+std::size_t PairSource::slots() const
+{
+    return changes() ? x_.size() : pairs_.size();
+}
+
 std::span<const std::uint64_t> PairSource::next_frame()
 {
     const std::size_t count = pattern_ == KeyPattern::camera_sweep ? sweep_camera() : pairs_.size();
@@ -109,4 +114,4 @@ std::size_t PairSource::sweep_camera()
     return seen;
 }
 
-}  // namespace spindrift::bench
+}  // namespace spindrift::measure

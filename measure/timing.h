@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace spindrift::bench
+namespace spindrift::measure
 {
 
 /// Milliseconds that a call takes.
@@ -23,4 +23,4 @@ double quantile(std::vector<double> samples, double q);
 /// Copies on all threads of the current arena: the floor that a stage which moves `bytes` is held against.
 void parallel_copy(void* to, const void* from, std::size_t bytes);
 
-}  // namespace spindrift::bench
+}  // namespace spindrift::measure

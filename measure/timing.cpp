@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/timing.h"
+#include "measure/timing.h"
 
 #include <algorithm>
 #include <cstring>
@@ -9,7 +9,7 @@
 
 #include "cpu/parallel.h"
 
-namespace spindrift::bench
+namespace spindrift::measure
 {
 
 double quantile(std::vector<double> samples, double q)
@@ -36,4 +36,4 @@ void parallel_copy(void* to, const void* from, std::size_t bytes)
                                  });
 }
 
-}  // namespace spindrift::bench
+}  // namespace spindrift::measure

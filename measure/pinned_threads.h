@@ -3,7 +3,7 @@
 
 #include <tbb/task_scheduler_observer.h>
 
-namespace spindrift::bench
+namespace spindrift::measure
 {
 
 /// While it lives, each thread of TBB that works stays on a core of its own, the calling thread on the first,
@@ -32,4 +32,4 @@ class AnyCore
     AnyCore& operator=(const AnyCore&) = delete;
 };
 
-}  // namespace spindrift::bench
+}  // namespace spindrift::measure

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
 #include <vector>
 
-namespace spindrift::bench
+namespace spindrift::measure
 {
 
 enum class KeyPattern
@@ -18,6 +19,9 @@ enum class KeyPattern
     camera_sweep,   ///< frames of a camera that moves and turns in a cloud of flakes
 };
 
+inline constexpr std::array kKeyPatterns{KeyPattern::random, KeyPattern::nearly_sorted, KeyPattern::equal,
+                                         KeyPattern::camera_sweep};
+
 std::string_view pattern_name(KeyPattern pattern);
 
 /// The inputs of one series of measurements: pairs (key << 32 | slot), slots ascending.
@@ -25,6 +29,9 @@ class PairSource
 {
   public:
     PairSource(KeyPattern pattern, std::size_t n);
+
+    std::size_t slots() const;  ///< every slot is less
+    bool changes() const { return pattern_ == KeyPattern::camera_sweep; }
 
     /// The pairs of the next frame; only the camera sweep changes from frame to frame.
     std::span<const std::uint64_t> next_frame();
@@ -41,4 +48,4 @@ class PairSource
     std::vector<float> x_, y_, z_;  // m; the cloud of the camera sweep
 };
 
-}  // namespace spindrift::bench
+}  // namespace spindrift::measure

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "app/camera_path.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "image/compare.h"
+#include "scene/make_world.h"
+
+namespace spindrift::app
+{
+
+CameraPath::CameraPath(scene::Scene scene)
+    : scene_(std::move(scene)),
+      geometry_(scene::read_geometry(scene_)),
+      world_(scene::make_world(scene_, geometry_)),
+      clock_{scene_.render.warm_up_s, scene_.render.frames_per_s, world_.step_s}
+{
+    try
+    {
+        context_ = gl::make_headless_context();
+    }
+    catch (const Error& error)
+    {
+        no_gl_because_ = error.what();
+    }
+    simulator_ = std::make_unique<Simulator>(
+        world_, context_ ? make_shared_memory(world_.capacity) : make_host_memory(world_.capacity),
+        cpu::CpuOptions{}, log_);
+    if (context_)
+        renderer_.emplace(scene_, geometry_, world_, *simulator_->memory().drawn_from(),
+                          scene_.render.width_px, scene_.render.height_px);
+}
+
+CameraPath::~CameraPath() = default;
+
+void CameraPath::go_to(std::uint64_t frame)
+{
+    simulator_->advance_to(clock_.steps_before(frame), [] { return false; });
+    time_s_ = clock_.time_s(frame);
+    view_ = scene::camera_at(scene_, time_s_);
+    exact_picture_.reset();
+}
+
+KeysOfFrame CameraPath::keys()
+{
+    KeysOfFrame keys;
+    const std::uint64_t* const pairs = simulator_->memory().draw_list().pairs;
+    for (std::size_t i = 0; i < keys.pairs.size(); ++i)
+    {
+        const DrawList list =
+            simulator_->prepare(view_, {.strategy = "none", .depth_bits = KeysOfFrame::kBits[i]});
+        keys.pairs[i].assign(pairs, pairs + list.count);
+    }
+    return keys;
+}
+
+SortStart CameraPath::start()
+{
+    if (slots_were_renumbered()) kept_order_.forget();
+    return kept_order_.next(view_);
+}
+
+/// The backend does not say; a slot that holds another flake than at the last frame does.
+bool CameraPath::slots_were_renumbered()
+{
+    const std::uint32_t* const ids = simulator_->memory().flakes().id;
+    const std::size_t used = simulator_->backend().slots_used();
+    const std::size_t both = std::min(used, ids_.size());
+    const bool renumbered = !std::equal(ids_.begin(), ids_.begin() + static_cast<std::ptrdiff_t>(both), ids);
+    ids_.assign(ids, ids + used);
+    return renumbered;
+}
+
+std::string CameraPath::pictures_by() const
+{
+    return context_ ? context_->info().renderer
+                    : fmt::format("none, since there is no GL: {}", no_gl_because_);
+}
+
+image::Image CameraPath::picture(std::span<const std::uint64_t> order)
+{
+    std::copy(order.begin(), order.end(), simulator_->memory().draw_list().pairs);
+    DrawList list;
+    list.count = order.size();
+    list.sorted = true;
+    gl::FrameStats stats;
+    stats.counts = simulator_->backend().counts();
+    renderer_->draw(gl::plan_frame(scene_, view_, stats, time_s_, geometry_.model_lights), view_, list,
+                    time_s_);
+    renderer_->wait_for_flakes();
+    return renderer_->read_linear();
+}
+
+double CameraPath::picture_error(std::span<const std::uint64_t> order, std::span<const std::uint64_t> exact)
+{
+    if (!exact_picture_) exact_picture_ = picture(exact);
+    return image::compare(picture(order), *exact_picture_, 0).relative_l2;
+}
+
+}  // namespace spindrift::app

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/view.h"
+
+namespace spindrift
+{
+
+/// From what a sort over frames begins.
+enum class SortStart
+{
+    exact,    ///< the order of the last frame is of no use: sort anew
+    as_kept,  ///< the order of the last frame; the first time: ascending slots
+};
+
+/// Whether a sort that goes on from the order of the last frame may do so. Decided alike on every backend.
+class KeptOrder
+{
+  public:
+    /// For each frame that is sorted so. Exact if no order is kept, or if the view turned or moved so far in
+    /// one frame that the old one says little.
+    SortStart next(const View& view)
+    {
+        const bool goes_on = kept_ && !jumped(view_, view);
+        kept_ = true;
+        view_ = view;
+        return goes_on ? SortStart::as_kept : SortStart::exact;
+    }
+    /// Slots were given new numbers, or another sort ran.
+    void forget() { kept_ = false; }
+
+  private:
+    static bool jumped(const View& a, const View& b)
+    {
+        constexpr float kFar_m = 5;
+        constexpr float kCosineOfTurn = 0.966F;  // 15 degrees
+        const Vec3f moved = b.eye - a.eye;
+        return dot(moved, moved) > kFar_m * kFar_m || dot(a.forward, b.forward) < kCosineOfTurn;
+    }
+
+    bool kept_ = false;
+    View view_{};
+};
+
+}  // namespace spindrift
