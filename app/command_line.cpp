@@ -186,6 +186,13 @@ void add_scene_options(CLI::App& command, scene::SceneOverrides& scene)
         ->check(CLI::Range(0, 1000000))
         ->group(group);
     add_sort_passes(command, scene, group);
+    command
+        .add_option(
+            "--flake-path", scene.flake_path,
+            "How blended flakes are drawn: raster, tiles (by the processor), or auto: tiles on software GL")
+        ->type_name("P")
+        ->check(CLI::IsMember({"auto", "raster", "tiles"}))
+        ->group(group);
 }
 
 void add_sort(CLI::App& command, scene::SceneOverrides& scene)

@@ -62,7 +62,9 @@ struct Simulation::Impl
         const cpu::CpuOptions cpu{options.threads, app::parse_simd(options.simd), scene.reorder_every_steps};
         auto backend = cpu::make_cpu_backend(world, flakes, memory->draw_list(), cpu);
         simulator = std::make_unique<app::Simulator>(std::move(memory), std::move(backend), log);
-        if (pictures) drawer = std::make_unique<app::FrameDrawer>(scene, geometry, world, *simulator, log);
+        if (pictures)
+            drawer = std::make_unique<app::FrameDrawer>(scene, geometry, world, *simulator, context->info(),
+                                                        cpu, log);
     }
 
     Backend& backend() const { return simulator->backend(); }

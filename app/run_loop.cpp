@@ -116,7 +116,8 @@ void draw_headless(RunState& run, Outputs& outputs)
     run.report.gl = context->info();
     const auto simulator = start_simulator(run, Drawing::on);
     const FrameClock clock = make_clock(run.input, simulator->backend().step_number());
-    FrameDrawer drawer(run.input.scene, run.input.geometry, run.input.world, *simulator, run.log);
+    FrameDrawer drawer(run.input.scene, run.input.geometry, run.input.world, *simulator, context->info(),
+                       cpu_options(run.options), run.log);
 
     warm_up(run, *simulator, clock.steps_before(0));
     draw_frames(run, *simulator, drawer, clock, outputs);
