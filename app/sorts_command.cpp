@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "app/backend_choice.h"
 #include "app/camera_path.h"
 #include "app/commands.h"
 #include "app/exit_codes.h"
@@ -87,7 +86,7 @@ struct Study
     measure::WantedSorts wanted;
     int frames;
     std::string pictures_by = "none: no scene";
-    std::vector<SortRow> rows;
+    std::vector<SortRow> rows = {};
 
     void add(std::vector<SortRow> more)
     {
