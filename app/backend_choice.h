@@ -3,16 +3,20 @@
 
 #include <string>
 
+#include "app/engine.h"
+#include "app/options.h"
+
 namespace spindrift::app
 {
 
 struct BackendChoice
 {
-    std::string name;    ///< "cpu"
+    std::string name;    ///< "cpu" or "cuda"
     std::string reason;  ///< why this one
 };
 
-/// From --backend auto|cpu|cuda. Throws Error for one that this build has not got; never swaps silently.
-BackendChoice choose_backend(const std::string& asked);
+/// From --backend auto|cpu|cuda and the options that belong to one of them. Throws Error for one that this
+/// build or machine has not got, and for options of another; never swaps silently.
+BackendChoice choose_backend(const RunOptions& options, const CudaSupport& cuda);
 
 }  // namespace spindrift::app

@@ -178,6 +178,13 @@ void add_scene_options(CLI::App& command, scene::SceneOverrides& scene)
             "Frames per second of simulated time")
         ->type_name("F")
         ->group(group);
+    command
+        .add_option("--reorder", scene.reorder_every_steps,
+                    "Put flakes in the order of the wind cells that they read after every N steps; 0: never. "
+                    "The result is the same")
+        ->type_name("N")
+        ->check(CLI::Range(0, 1000000))
+        ->group(group);
     add_sort_passes(command, scene, group);
 }
 
@@ -188,7 +195,7 @@ void add_sort(CLI::App& command, scene::SceneOverrides& scene)
 
 void add_backend(CLI::App& command, std::string& backend, const char* group)
 {
-    command.add_option("--backend", backend, "auto, cpu or cuda")
+    command.add_option("--backend", backend, "auto (cuda where there is a device, else cpu), cpu or cuda")
         ->type_name("B")
         ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
         ->capture_default_str()
@@ -241,16 +248,24 @@ void add_run(CLI::App& app, RunOptions& options)
 
     const char* machine = "The machine";
     add_backend(command, options.backend, machine);
-    command.add_option("--threads", options.cpu.threads, "Threads of the simulation; 0: one per core")
+    command.add_option("--threads", options.threads, "Threads of the CPU backend; 0: one per core")
         ->type_name("T")
         ->check(CLI::Range(0, 1024))
         ->group(machine);
     command
         .add_option_function<std::string>(
-            "--simd", [&options](const std::string& word) { options.cpu.simd = parse_simd(word); },
-            "Vector width: auto, scalar, avx2 or avx512; the result is the same")
+            "--simd", [&options](const std::string& word) { options.simd = parse_simd(word); },
+            "Vector width of the CPU backend: auto, scalar, avx2 or avx512; the result is the same")
         ->type_name("S")
         ->check(CLI::IsMember({"auto", "scalar", "avx2", "avx512"}))
+        ->group(machine);
+    command
+        .add_option_function<std::string>(
+            "--cuda-graph", [&options](const std::string& word) { options.cuda_graph = word == "on"; },
+            "Queue the kernels of a step of the CUDA backend as one graph (on, the default) or one by one "
+            "(off), with the time of each stage")
+        ->type_name("G")
+        ->check(CLI::IsMember({"on", "off"}))
         ->group(machine);
     static const std::map<std::string, Interop> kInterop = {
         {"auto", Interop::automatic}, {"on", Interop::on}, {"off", Interop::off}};

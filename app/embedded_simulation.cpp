@@ -46,6 +46,7 @@ struct Simulation::Impl
     std::unique_ptr<gl::Context> context;  // outlives all that holds GL objects
     std::unique_ptr<app::Simulator> simulator;
     std::unique_ptr<app::FrameDrawer> drawer;
+    FlakeView flakes{};
     bool drawn = false;
 
     Impl(const std::filesystem::path& file, const SimulationOptions& options)
@@ -57,8 +58,10 @@ struct Simulation::Impl
         if (pictures) context = gl::make_headless_context();
         auto memory =
             pictures ? app::make_shared_memory(world.capacity) : app::make_host_memory(world.capacity);
-        const cpu::CpuOptions cpu{options.threads, app::parse_simd(options.simd)};
-        simulator = std::make_unique<app::Simulator>(world, std::move(memory), cpu, log);
+        flakes = memory->flakes();
+        const cpu::CpuOptions cpu{options.threads, app::parse_simd(options.simd), scene.reorder_every_steps};
+        auto backend = cpu::make_cpu_backend(world, flakes, memory->draw_list(), cpu);
+        simulator = std::make_unique<app::Simulator>(std::move(memory), std::move(backend), log);
         if (pictures) drawer = std::make_unique<app::FrameDrawer>(scene, geometry, world, *simulator, log);
     }
 
@@ -108,7 +111,7 @@ std::uint64_t Simulation::state_hash() const
 }
 FlakeView Simulation::flakes() const
 {
-    return impl_->simulator->memory().flakes();
+    return impl_->flakes;
 }
 std::size_t Simulation::slots_used() const
 {

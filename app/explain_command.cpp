@@ -109,7 +109,8 @@ void print_text(const Explained& e)
 {
     print_scene(e);
     fmt::print("\nSimulation leaves out\n");
-    for (const Skip& skip : simulation_skips(e.world)) fmt::print("  {}: {}\n", skip.what, skip.why);
+    for (const Skip& skip : simulation_skips(e.world, e.scene.reorder_every_steps))
+        fmt::print("  {}: {}\n", skip.what, skip.why);
     fmt::print("\nFirst frame\n{}", gl::to_text(e.plan));
     fmt::print("\nMemory, estimated: {:.1f} MB\n", megabytes(e.memory.total()));
     fmt::print("  flakes {:.1f}, voxels {:.1f}, wind {:.1f}, picture {:.1f}\n", megabytes(e.memory.flakes),
@@ -126,7 +127,7 @@ void print_json(const Explained& e)
                           {"reads", p.reads},
                           {"writes", p.writes}});
     Json skips = Json::array();
-    for (const Skip& skip : simulation_skips(e.world))
+    for (const Skip& skip : simulation_skips(e.world, e.scene.reorder_every_steps))
         skips.push_back({{"what", skip.what}, {"why", skip.why}});
     const World& w = e.world;
     const Json json = {{"scene",

@@ -13,7 +13,7 @@ namespace
 
 constexpr std::size_t kHostBytesPerFlake = kStateBytesPerFlake + kDrawListBytesPerFlake;
 
-class HostMemory final : public FlakeMemory
+class HostMemory final : public HostFlakeMemory
 {
   public:
     explicit HostMemory(std::size_t capacity) : capacity_(capacity), host_(capacity) {}
@@ -28,7 +28,7 @@ class HostMemory final : public FlakeMemory
     cpu::HostFlakes host_;
 };
 
-class SharedMemory final : public FlakeMemory
+class SharedMemory final : public HostFlakeMemory
 {
   public:
     explicit SharedMemory(std::size_t capacity) : buffers_(capacity) {}
@@ -48,7 +48,7 @@ void copy(T* to, const T* from, std::size_t n)
     if (n > 0) std::memcpy(to, from, n * sizeof(T));
 }
 
-class StagedMemory final : public FlakeMemory
+class StagedMemory final : public HostFlakeMemory
 {
   public:
     explicit StagedMemory(std::size_t capacity) : host_(capacity), buffers_(capacity) {}
@@ -77,15 +77,15 @@ class StagedMemory final : public FlakeMemory
 
 }  // namespace
 
-std::unique_ptr<FlakeMemory> make_host_memory(std::size_t capacity)
+std::unique_ptr<HostFlakeMemory> make_host_memory(std::size_t capacity)
 {
     return std::make_unique<HostMemory>(capacity);
 }
-std::unique_ptr<FlakeMemory> make_shared_memory(std::size_t capacity)
+std::unique_ptr<HostFlakeMemory> make_shared_memory(std::size_t capacity)
 {
     return std::make_unique<SharedMemory>(capacity);
 }
-std::unique_ptr<FlakeMemory> make_staged_memory(std::size_t capacity)
+std::unique_ptr<HostFlakeMemory> make_staged_memory(std::size_t capacity)
 {
     return std::make_unique<StagedMemory>(capacity);
 }

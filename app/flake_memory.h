@@ -16,8 +16,6 @@ class FlakeMemory
 {
   public:
     virtual ~FlakeMemory() = default;
-    virtual FlakeView flakes() const = 0;
-    virtual DrawListView draw_list() const = 0;
     virtual std::size_t bytes() const = 0;  ///< of all its buffers
     /// What the renderer draws from; null without GL.
     virtual const gl::FlakeBuffers* drawn_from() const = 0;
@@ -25,12 +23,20 @@ class FlakeMemory
     virtual void hand_over(std::size_t used, const DrawList& list) = 0;
 };
 
+/// What the CPU can address.
+class HostFlakeMemory : public FlakeMemory
+{
+  public:
+    virtual FlakeView flakes() const = 0;
+    virtual DrawListView draw_list() const = 0;
+};
+
 /// No GL: host memory.
-std::unique_ptr<FlakeMemory> make_host_memory(std::size_t capacity);
+std::unique_ptr<HostFlakeMemory> make_host_memory(std::size_t capacity);
 /// The simulation writes GL's buffers. Needs a current context.
-std::unique_ptr<FlakeMemory> make_shared_memory(std::size_t capacity);
+std::unique_ptr<HostFlakeMemory> make_shared_memory(std::size_t capacity);
 /// The simulation writes host memory, which is copied to GL's buffers for each frame. Needs a current
 /// context.
-std::unique_ptr<FlakeMemory> make_staged_memory(std::size_t capacity);
+std::unique_ptr<HostFlakeMemory> make_staged_memory(std::size_t capacity);
 
 }  // namespace spindrift::app

@@ -38,11 +38,11 @@ void FrameDrawer::set_sort(const std::string& strategy)
     stale_ = true;
 }
 
-gl::FramePlan FrameDrawer::plan(const View& view, double time_s) const
+gl::FramePlan FrameDrawer::plan(const View& view, double time_s, const FlakeCounts& counts) const
 {
     const Backend& backend = simulator_.backend();
     gl::FrameStats stats;
-    stats.counts = backend.counts();
+    stats.counts = counts;
     stats.flakes_moved = stale_ || backend.step_number() != last_step_;
     stats.camera_moved = !last_view_ || !same(view, *last_view_);
     stats.drawn = list_.count;
@@ -51,7 +51,8 @@ gl::FramePlan FrameDrawer::plan(const View& view, double time_s) const
 
 void FrameDrawer::draw(const View& view, double time_s)
 {
-    const gl::FramePlan frame = plan(view, time_s);
+    const FlakeCounts counts = simulator_.exact_counts();
+    const gl::FramePlan frame = plan(view, time_s, counts);
     plans_.add(frame);
     if (frame.runs("cull"))
     {
@@ -59,7 +60,7 @@ void FrameDrawer::draw(const View& view, double time_s)
         if (!frame.runs("sort")) settings.strategy = "none";
         list_ = simulator_.prepare(view, settings);
     }
-    else if (simulator_.backend().counts().alive == 0)
+    else if (counts.alive == 0)
         list_ = {};
     stale_ = false;
     last_view_ = view;

@@ -37,7 +37,7 @@ class FrameDrawer
     const std::vector<float>& culled() const { return culled_; }
 
   private:
-    gl::FramePlan plan(const View& view, double time_s) const;
+    gl::FramePlan plan(const View& view, double time_s, const FlakeCounts& counts) const;
 
     scene::Scene scene_;  ///< its sort may be changed
     const scene::Geometry& geometry_;

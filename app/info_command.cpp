@@ -37,6 +37,15 @@ std::string sorts(const std::string& backend)
     return fmt::format("{} (auto is {})", text, choose_sort(backend, "auto"));
 }
 
+void print_cuda(const CudaSupport& cuda)
+{
+    if (!cuda.built) return line("CUDA", "none in this build");
+    if (cuda.devices.empty()) line("CUDA", fmt::format("no device: {}", cuda.none_because));
+    for (std::size_t d = 0; d < cuda.devices.size(); ++d)
+        line(d == 0 ? "CUDA" : "", fmt::format("device {}: {}", d, cuda.devices[d]));
+    line("", cuda.versions);
+}
+
 void print_gl()
 {
     try
@@ -59,7 +68,8 @@ void print_gl()
 
 int info()
 {
-    const BackendChoice choice = choose_backend("auto");
+    const CudaSupport cuda = cuda_support();
+    const BackendChoice choice = choose_backend({}, cuda);
     line("spindrift", fmt::format("{} ({}, {}{}{})", kVersion, kBuildType, kCompiler,
                                   *kSanitizers ? ", sanitizers " : "", kSanitizers));
     line("backend", fmt::format("{} ({})", choice.name, choice.reason));
@@ -67,6 +77,7 @@ int info()
     line("threads", fmt::format("{}", usable_threads({})));
     line("SIMD", simd_variants());
     line("sorts", sorts(choice.name));
+    print_cuda(cuda);
     print_gl();
     line("display", has_display() ? "yes" : "none (DISPLAY and WAYLAND_DISPLAY are unset): use --headless");
     const auto ffmpeg = find_program("ffmpeg");

@@ -32,12 +32,22 @@ struct RunOptions
     std::optional<int> depth_bits;
     std::vector<std::string> out;
     std::string backend = "auto";
-    cpu::CpuOptions cpu;
+    std::optional<int> threads;  ///< these two are the CPU's
+    std::optional<cpu::Simd> simd;
+    std::optional<bool> cuda_graph;  ///< this one is CUDA's
     Interop interop = Interop::automatic;
     std::optional<std::uint64_t> steps;  ///< simulate this many and draw nothing
     std::filesystem::path stats, save_snapshot, load_snapshot;
     bool hash = false;
 };
+
+inline cpu::CpuOptions cpu_options(const RunOptions& options)
+{
+    cpu::CpuOptions cpu;
+    cpu.threads = options.threads.value_or(cpu.threads);
+    cpu.simd = options.simd.value_or(cpu.simd);
+    return cpu;
+}
 
 /// What `spindrift sorts` was asked for.
 struct SortsOptions

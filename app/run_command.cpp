@@ -43,7 +43,7 @@ void check_files(const RunOptions& options)
 
 RunInput read_input(const RunOptions& options)
 {
-    const BackendChoice choice = choose_backend(options.backend);
+    const BackendChoice choice = choose_backend(options, cuda_support());
     scene::Scene scene = scene::read_scene(find_scene(options.scene), options.overrides);
     if (options.depth_bits) scene.render.depth_bits = *options.depth_bits;
     scene.render.sort = choose_sort(choice.name, scene.render.sort);
@@ -55,9 +55,9 @@ RunInput read_input(const RunOptions& options)
 void describe_machine(RunState& run)
 {
     run.report.choice = run.input.choice;
-    run.report.threads = usable_threads(run.options.cpu);
-    run.report.simd = used_simd(run.options.cpu);
-    run.report.skips = simulation_skips(run.input.world);
+    run.report.threads = usable_threads(cpu_options(run.options));
+    run.report.simd = used_simd(cpu_options(run.options));
+    run.report.skips = simulation_skips(run.input.world, run.input.scene.reorder_every_steps);
 }
 
 void print_summary(const RunState& run)

@@ -2,6 +2,7 @@
 #include "app/run_loop.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,23 +15,14 @@
 namespace spindrift::app
 {
 
-std::unique_ptr<FlakeMemory> make_drawn_memory(RunState& run)
+std::unique_ptr<Simulator> start_simulator(RunState& run, Drawing drawing)
 {
-    const std::size_t capacity = run.input.world.capacity;
-    if (run.options.interop == Interop::off)
-    {
-        run.report.flake_memory = "host memory, copied to GL for each frame (--interop off)";
-        return make_staged_memory(capacity);
-    }
-    run.report.flake_memory = "GL buffers, which the simulation writes in place through a persistent mapping";
-    return make_shared_memory(capacity);
-}
-
-std::unique_ptr<Simulator> start_simulator(RunState& run, std::unique_ptr<FlakeMemory> memory)
-{
-    run.report.buffer_bytes = memory->bytes();
+    const auto make = run.input.choice.name == "cuda" ? make_cuda_engine : make_cpu_engine;
+    Engine engine = make(run.input.world, run.options, run.input.scene.reorder_every_steps, drawing);
+    run.report.flake_memory = engine.about_memory;
+    run.report.buffer_bytes = engine.memory->bytes();
     auto simulator =
-        std::make_unique<Simulator>(run.input.world, std::move(memory), run.options.cpu, run.log);
+        std::make_unique<Simulator>(std::move(engine.memory), std::move(engine.backend), run.log);
     run.report.backend = simulator->backend().name();
     if (run.options.load_snapshot.empty()) return simulator;
 
@@ -62,7 +54,8 @@ bool advance(RunState& run, Simulator& simulator, std::uint64_t steps)
 void conclude(RunState& run, Simulator& simulator)
 {
     Backend& backend = simulator.backend();
-    run.report.counts = backend.counts();
+    run.report.counts = simulator.exact_counts();
+    run.report.extent = backend.extent();
     run.report.steps = backend.step_number();
     run.report.state_hash = backend.state_hash();
     run.report.interrupted = run.interrupt.requested();
@@ -72,8 +65,7 @@ void conclude(RunState& run, Simulator& simulator)
 
 void simulate_only(RunState& run)
 {
-    run.report.flake_memory = "host memory (nothing is drawn)";
-    const auto simulator = start_simulator(run, make_host_memory(run.input.world.capacity));
+    const auto simulator = start_simulator(run, Drawing::off);
     const std::uint64_t first = simulator->backend().step_number();
     const FrameClock clock = make_clock(run.input, first);
     const auto last_frame = static_cast<std::uint64_t>(run.input.scene.render.frames) - 1;
@@ -122,7 +114,7 @@ void draw_headless(RunState& run, Outputs& outputs)
 {
     const std::unique_ptr<gl::Context> context = gl::make_headless_context();
     run.report.gl = context->info();
-    const auto simulator = start_simulator(run, make_drawn_memory(run));
+    const auto simulator = start_simulator(run, Drawing::on);
     const FrameClock clock = make_clock(run.input, simulator->backend().step_number());
     FrameDrawer drawer(run.input.scene, run.input.geometry, run.input.world, *simulator, run.log);
 

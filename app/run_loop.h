@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/backend_choice.h"
+#include "app/engine.h"
 #include "app/frame_clock.h"
 #include "app/interrupt.h"
 #include "app/options.h"
@@ -36,9 +37,8 @@ struct RunState
     RunReport report;
 };
 
-/// A simulator on `memory`, at the snapshot's state if one is to be loaded.
-std::unique_ptr<Simulator> start_simulator(RunState& run, std::unique_ptr<FlakeMemory> memory);
-std::unique_ptr<FlakeMemory> make_drawn_memory(RunState& run);
+/// A simulator on the backend that was chosen, at the snapshot's state if one is to be loaded.
+std::unique_ptr<Simulator> start_simulator(RunState& run, Drawing drawing);
 
 /// Frame times of this run: from the end of the warm-up, or from where the snapshot goes on.
 FrameClock make_clock(const RunInput& input, std::uint64_t steps_done);

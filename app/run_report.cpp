@@ -34,13 +34,14 @@ Json build_json()
 
 Json machine_json(const RunReport& report)
 {
-    Json machine = {{"backend",
-                     {{"name", report.choice.name},
-                      {"why", report.choice.reason},
-                      {"description", report.backend},
-                      {"simd", report.simd},
-                      {"threads", report.threads}}},
-                    {"flake_memory", report.flake_memory}};
+    Json backend = {
+        {"name", report.choice.name}, {"why", report.choice.reason}, {"description", report.backend}};
+    if (report.choice.name == "cpu")
+    {
+        backend["simd"] = report.simd;
+        backend["threads"] = report.threads;
+    }
+    Json machine = {{"backend", backend}, {"flake_memory", report.flake_memory}};
     if (report.gl)
         machine["gl"] = {{"platform", report.gl->platform},
                          {"renderer", report.gl->renderer},
@@ -64,6 +65,19 @@ Json counts_json(const FlakeCounts& c)
              {{"rule", "emitted = alive + left + landed + vanished"},
               {"difference", imbalance(c)},
               {"holds", imbalance(c) == 0}}}};
+}
+
+/// Of the living flakes, in the scene's frame; null where there are none.
+Json bounds_json(const FlakeExtent& extent, const scene::Scene& scene)
+{
+    if (!(extent.lower.x <= extent.upper.x)) return nullptr;
+    const auto corner = [&](const Vec3f& v)
+    {
+        const Vec3d& origin = scene.domain.min_m;
+        return Json{origin.x + static_cast<double>(v.x), origin.y + static_cast<double>(v.y),
+                    origin.z + static_cast<double>(v.z)};
+    };
+    return {{"min_m", corner(extent.lower)}, {"max_m", corner(extent.upper)}};
 }
 
 Json stages_json(const std::vector<StageSummary>& stages)
@@ -136,7 +150,7 @@ std::string hash_text(std::uint64_t hash)
     return fmt::format("{:016x}", hash);
 }
 
-std::vector<Skip> simulation_skips(const World& world)
+std::vector<Skip> simulation_skips(const World& world, std::uint32_t reorder_every_steps)
 {
     std::vector<Skip> skips;
     if (!world.wind.turbulent)
@@ -144,6 +158,10 @@ std::vector<Skip> simulation_skips(const World& world)
     if (world.voxels.nx == 0)
         skips.push_back({"cell-by-cell walk", "the scene has no solids but the ground"});
     if (!world.has_ground) skips.push_back({"ground contact", "the scene has no ground plane"});
+    if (reorder_every_steps == 0)
+        skips.push_back({"re-ordering by cell", "simulation.reorder_every_steps is 0"});
+    else if (world.wind.kind != WindKind::grid)
+        skips.push_back({"re-ordering by cell", "the scene's wind has no cells"});
     if (world.anchors.empty()) skips.push_back({"moving skies", "no emitter follows a camera or vehicle"});
     return skips;
 }
@@ -165,6 +183,9 @@ void write_report(const std::filesystem::path& file, const RunReport& report, co
     json["wall_s"] = report.wall_s;
     json["state_hash"] = hash_text(report.state_hash);
     json["counts"] = counts_json(report.counts);
+    json["counts"]["rogue"] = report.extent.rogue;
+    json["bounds"] = bounds_json(report.extent, scene);
+    json["reorder_every_steps"] = scene.reorder_every_steps;
     json["draw_list"] = drawn_json(report.flakes);
     json["stages_ms"] = stages_json(report.stages);
     json["passes"] = passes_json(report.passes);

@@ -25,7 +25,7 @@ struct Skip
 };
 
 /// What a World lets the simulation leave out.
-std::vector<Skip> simulation_skips(const World& world);
+std::vector<Skip> simulation_skips(const World& world, std::uint32_t reorder_every_steps);
 
 /// Flakes in the draw list, over the frames of a run.
 struct DrawnFlakes
@@ -46,6 +46,7 @@ struct RunReport
     std::string no_gl_because;
 
     FlakeCounts counts;
+    FlakeExtent extent;
     std::uint64_t state_hash = 0, steps = 0, frames = 0;
     double wall_s = 0;
     bool interrupted = false;

@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include "app/simulator.h"
 
+#include <cmath>
 #include <utility>
 
 namespace spindrift::app
 {
 
-Simulator::Simulator(const World& world, std::unique_ptr<FlakeMemory> memory, const cpu::CpuOptions& options,
-                     StageLog& log)
-    : memory_(std::move(memory)),
-      backend_(cpu::make_cpu_backend(world, memory_->flakes(), memory_->draw_list(), options)),
-      log_(log)
+namespace
+{
+
+void add(StageLog& log, const char* stage, double ms)
+{
+    if (!std::isnan(ms)) log.add(stage, ms);
+}
+
+}  // namespace
+
+Simulator::Simulator(std::unique_ptr<FlakeMemory> memory, std::unique_ptr<Backend> backend, StageLog& log)
+    : memory_(std::move(memory)), backend_(std::move(backend)), log_(log)
 {
 }
 
@@ -25,9 +33,10 @@ bool Simulator::advance_to(std::uint64_t steps, const std::function<bool()>& sto
             backend_->step();
         }
         const StageTimes times = backend_->times();
-        log_.add("emit", times.emit);
-        log_.add("advect", times.advect);
-        log_.add("compact", times.compact);
+        add(log_, "emit", times.emit);
+        add(log_, "advect", times.advect);
+        add(log_, "compact", times.compact);
+        add(log_, "step on the device", times.step);
         if (each) each();
     }
     return true;
@@ -37,11 +46,18 @@ DrawList Simulator::prepare(const View& view, const SortSettings& sort)
 {
     const DrawList list = backend_->prepare(view, sort);
     const StageTimes times = backend_->times();
-    log_.add("cull", times.cull);
-    if (list.sorted) log_.add("sort", times.sort);
+    add(log_, "cull", times.cull);
+    if (list.sorted) add(log_, "sort", times.sort);
     const StageTimer timer(log_, "upload");
     memory_->hand_over(backend_->slots_used(), list);
+    backend_->close(list);
     return list;
+}
+
+FlakeCounts Simulator::exact_counts()
+{
+    backend_->finish();
+    return backend_->counts();
 }
 
 }  // namespace spindrift::app

@@ -6,10 +6,8 @@
 #include <memory>
 
 #include "app/flake_memory.h"
-#include "app/options.h"
 #include "app/stage_log.h"
 #include "core/backend.h"
-#include "core/world.h"
 
 namespace spindrift::app
 {
@@ -18,9 +16,7 @@ namespace spindrift::app
 class Simulator
 {
   public:
-    /// `world` must outlive it. Throws Error if the machine cannot do what was asked.
-    Simulator(const World& world, std::unique_ptr<FlakeMemory> memory, const cpu::CpuOptions& options,
-              StageLog& log);
+    Simulator(std::unique_ptr<FlakeMemory> memory, std::unique_ptr<Backend> backend, StageLog& log);
 
     /// Steps until `steps` are complete, or `stop` answers true; `each` is called after each step. True:
     /// arrived.
@@ -29,6 +25,9 @@ class Simulator
 
     /// Culls and sorts for a view, and hands the flakes over to GL.
     DrawList prepare(const View& view, const SortSettings& sort);
+
+    /// Counts of the steps that were made so far, not those that happen to be known.
+    FlakeCounts exact_counts();
 
     Backend& backend() { return *backend_; }
     const FlakeMemory& memory() const { return *memory_; }

@@ -140,7 +140,7 @@ void draw_in_window(RunState& run)
     options.title = "Spindrift - " + run.input.scene.name;
     gl::Window window(options);
     run.report.gl = window.info();
-    const auto simulator = start_simulator(run, make_drawn_memory(run));
+    const auto simulator = start_simulator(run, Drawing::on);
     warm_up(run, *simulator, make_clock(run.input, simulator->backend().step_number()).steps_before(0));
     WindowRun shown(run, window, *simulator);
     const std::optional<int> frames = run.options.overrides.frames;

@@ -35,10 +35,16 @@ struct DrawList
     bool sorted = false;
 };
 
-/// Milliseconds of the newest call, by stage.
+/// A stage that nobody timed.
+inline constexpr double kNotMeasured = __builtin_nan("");
+
+/// Milliseconds of the newest call whose times are known, by stage; or kNotMeasured. On a device they are the
+/// device's own.
 struct StageTimes
 {
-    double emit = 0, advect = 0, compact = 0, cull = 0, sort = 0;
+    double emit = kNotMeasured, advect = kNotMeasured, compact = kNotMeasured;
+    double step = kNotMeasured;  ///< the three together, where the clock is not the caller's
+    double cull = kNotMeasured, sort = kNotMeasured;
 };
 
 struct SortSettings

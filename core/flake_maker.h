@@ -12,13 +12,14 @@
 namespace spindrift
 {
 
-/// Makes single flakes of the step of a job: place, turbulence and slip from the flake's id alone.
+/// Makes single flakes of a step: place, turbulence and slip from the flake's id alone.
 struct FlakeMaker
 {
     /// Places that are tried for a flake that would come into being inside a solid.
     static constexpr std::uint32_t kPlaces = 8;
 
     const AdvectJob& job;  ///< its regions are those of the beginning of the step
+    StepParams step;
 
     /// Writes flake `id` of emitter `e` to a slot; false if it found no room and is a hole already.
     SPINDRIFT_HD bool operator()(const Emitter& emitter, std::uint32_t e, std::uint32_t id, StartPlace place,
@@ -54,14 +55,14 @@ struct FlakeMaker
     {
         const bool sky = emitter.shape == EmitterShape::sky;
         const Vec3f centre = sky ? (region.lower + region.upper) * 0.5F : emitter.a;
-        return StartSampler<float>(emitter, job.step.seed, centre)(id, place, job.step.number, attempt);
+        return StartSampler<float>(emitter, step.seed, centre)(id, place, step.number, attempt);
     }
 
     SPINDRIFT_HD Vec3f turbulence(std::uint32_t id) const
     {
         if (!job.turbulent) return {0, 0, 0};
         const Gaussians<float> g =
-            gaussians<float>(job.step.seed, id, job.step.number, RandomStream::turbulence_start);
+            gaussians<float>(step.seed, id, step.number, RandomStream::turbulence_start);
         return {g.x, g.y, g.z};
     }
 

@@ -263,17 +263,42 @@ struct CellCorners
 namespace detail
 {
 
+/// A quarter of a wind cell.
+struct alignas(16) CellRecord
+{
+    float numbers[4];
+};
+
+/// In one access; a device reads it through the cache for data that nobody writes.
+SPINDRIFT_HD CellRecord load_record(const float* from)
+{
+#if defined(__CUDA_ARCH__)
+    const float4 four = __ldg(reinterpret_cast<const float4*>(from));
+    return {{four.x, four.y, four.z, four.w}};
+#else
+    return {{from[0], from[1], from[2], from[3]}};
+#endif
+}
+
 template <int Count, class R>
 SPINDRIFT_HD void interpolate_numbers(const GridWind& grid, const GridPoint<R>& p, R* numbers)
 {
     R weight[8];
     corner_weights(p, weight);
     const CellCorners corner(grid, p.index);
-    for (int i = 0; i < Count; ++i)
+    for (int first = 0; first < Count; first += 4)
     {
-        R sum = weight[0] * static_cast<R>(corner.at[0][i]);
-        for (int c = 1; c < 8; ++c) sum = fma(weight[c], static_cast<R>(corner.at[c][i]), sum);
-        numbers[i] = sum;
+        R sum[4];
+        for (int c = 0; c < 8; ++c)
+        {
+            const CellRecord record = load_record(corner.at[c] + first);
+            for (int i = 0; i < 4; ++i)
+            {
+                const R value = static_cast<R>(record.numbers[i]);
+                sum[i] = c == 0 ? weight[0] * value : fma(weight[c], value, sum[i]);
+            }
+        }
+        for (int i = 0; i < 4 && first + i < Count; ++i) numbers[first + i] = sum[i];
     }
 }
 

@@ -63,8 +63,9 @@ Compactor::Compactor(std::size_t capacity) : alive_((capacity + kWord - 1) / kWo
 std::size_t Compactor::operator()(const FlakeView& f, std::size_t used)
 {
     mark_alive(f, used, alive_.data());
-    void* const arrays[11] = {f.x, f.y, f.z, f.q1, f.q2, f.q3, f.slip_x, f.slip_y, f.slip_z, f.id, f.state};
-    parallel_for_each_index(11, [&](std::size_t a) { close_holes(arrays[a], alive_.data(), used); });
+    const auto arrays = flake_words(f);
+    parallel_for_each_index(arrays.size(),
+                            [&](std::size_t a) { close_holes(arrays[a], alive_.data(), used); });
     std::size_t kept = 0;
     for (std::size_t i = 0; i < used; i += kWord)
         kept += static_cast<std::size_t>(std::popcount(alive_[i / kWord]));

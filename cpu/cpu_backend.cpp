@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <optional>
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@
 #include "core/check_world.h"
 #include "core/error.h"
 #include "core/flake_extent.h"
-#include "core/snapshot_check.h"
+#include "core/snapshot.h"
 #include "core/state_hash.h"
 #include "core/step_state.h"
 #include "core/world_hash.h"
@@ -24,8 +25,8 @@
 #include "cpu/emission.h"
 #include "cpu/held_world.h"
 #include "cpu/parallel.h"
+#include "cpu/reorder.h"
 #include "cpu/simd.h"
-#include "cpu/snapshot.h"
 
 namespace spindrift::cpu
 {
@@ -79,7 +80,9 @@ class CpuBackend final : public Backend
           anchors_(world.anchors),
           emission_(world),
           compact_(world.capacity),
+          list_memory_(draw_list),
           list_(draw_list, world.capacity),
+          reorder_every_(world.wind.kind == WindKind::grid ? options.reorder_every_steps : 0),
           regions_(std::max<std::size_t>(world.emitters.size(), 1)),
           tallies_(chunk_count(world.capacity)),
           lost_(chunk_count(world.capacity) * world.emitters.size()),
@@ -92,7 +95,9 @@ class CpuBackend final : public Backend
 
     std::string name() const override
     {
-        return fmt::format("cpu ({}, {} thread{})", simd_name(simd_), threads_, threads_ == 1 ? "" : "s");
+        return fmt::format(
+            "cpu ({}, {} thread{}{})", simd_name(simd_), threads_, threads_ == 1 ? "" : "s",
+            reorder_every_ > 0 ? fmt::format(", re-ordered every {} steps", reorder_every_) : "");
     }
 
     void step() override
@@ -124,6 +129,7 @@ class CpuBackend final : public Backend
     void emit();
     void advect();
     void compact();
+    void reorder();
     DrawList prepare_in_arena(const View& view, const SortSettings& sort);
     void place_regions(double time_s);
     template <class Part, class OfChunk>
@@ -140,7 +146,9 @@ class CpuBackend final : public Backend
     Anchors anchors_;
     Emission emission_;
     Compactor compact_;
+    DrawListView list_memory_;
     DrawListMaker list_;
+    std::uint32_t reorder_every_;  ///< steps; 0: never
     std::vector<Region> regions_;
     std::vector<EncounterTally> tallies_;
     std::vector<std::uint32_t> lost_;  ///< by chunk and emitter
@@ -166,7 +174,10 @@ void CpuBackend::step_in_arena()
     place_regions(time_of(state_.step + 1));
     advect();
     ++state_.step;
-    if (state_.has_many_holes()) compact();
+    if (reorder_every_ > 0 && state_.step % reorder_every_ == 0)
+        reorder();
+    else if (state_.has_many_holes())
+        compact();
 }
 
 void CpuBackend::emit()
@@ -214,6 +225,14 @@ void CpuBackend::compact()
     list_.slots_renumbered();
 }
 
+void CpuBackend::reorder()
+{
+    const StageTimer timer(times_.compact);
+    reorder_by_cell({job_.grid, flakes_}, state_.used, state_.counts.alive, list_memory_);
+    state_.close_holes();
+    list_.slots_renumbered();
+}
+
 DrawList CpuBackend::prepare_in_arena(const View& view, const SortSettings& sort)
 {
     const SortStrategy& strategy = list_.strategy(sort);
@@ -225,6 +244,9 @@ DrawList CpuBackend::prepare_in_arena(const View& view, const SortSettings& sort
     result.culled = state_.counts.alive - result.count;
     const StageTimer timer(times_.sort);
     list_.sort(strategy, sort, view, result);
+    if (reorder_every_ > 0 && result.sorted && !strategy.network)
+        order_ties(result.in_scratch ? list_memory_.scratch : list_memory_.pairs, result.count, flakes_.id,
+                   static_cast<std::uint32_t>(state_.next_id));
     return result;
 }
 
@@ -285,7 +307,9 @@ void CpuBackend::restore(const Snapshot& s)
 {
     const World& world = world_.data();
     check_snapshot(s, hash_, world.capacity, world.emitters.size(), anchors_);
-    put_arrays(s, flakes_);
+    const auto arrays = flake_words(flakes_);
+    for (std::size_t a = 0; a < arrays.size(); ++a)
+        if (!s.arrays[a].empty()) std::memcpy(arrays[a], s.arrays[a].data(), 4 * s.arrays[a].size());
     emission_.restore(s.emitter_state.data());
     anchors_.restore(s.emitter_state.data() + 2 * world.emitters.size());
     state_ = {s.counts, s.step, s.next_id, s.counts.alive};

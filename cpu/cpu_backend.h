@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,6 +30,9 @@ struct CpuOptions
 {
     int threads = 0;  ///< 0: one per core that this process may use
     Simd simd = Simd::automatic;
+    /// Puts the flakes in the order of the wind cells that they read after every so many steps; 0: never.
+    /// Without a wind grid there is nothing to order by. The results are the same.
+    std::uint32_t reorder_every_steps = 0;
 };
 
 /// The CPU implementation of Backend: TBB over chunks, SIMD inside. It works on memory that the caller owns

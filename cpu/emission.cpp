@@ -26,7 +26,7 @@ std::uint64_t Emission::make(const AdvectJob& job, std::uint64_t step, std::uint
     const std::size_t kinds = emitters_.size();
     const std::size_t chunks = chunk_count(flakes);
     const StartPlace place = EmissionLedger::start_place(step);
-    const FlakeMaker maker{job};
+    const FlakeMaker maker{job, job.step};
     parallel_for_each_index(
         chunks,
         [&](std::size_t c)

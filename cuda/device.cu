@@ -8,6 +8,17 @@
 namespace spindrift::gpu
 {
 
+namespace
+{
+
+DeviceInfo describe(int ordinal, const cudaDeviceProp& properties)
+{
+    return {ordinal,          properties.name,           properties.major,
+            properties.minor, properties.totalGlobalMem, properties.multiProcessorCount};
+}
+
+}  // namespace
+
 Devices find_devices()
 {
     Devices devices;
@@ -24,11 +35,24 @@ Devices find_devices()
             devices.none_because = error_text(asked);
             continue;
         }
-        devices.list.push_back({ordinal, properties.name, properties.major, properties.minor,
-                                properties.totalGlobalMem, properties.multiProcessorCount});
+        devices.list.push_back(describe(ordinal, properties));
     }
     cudaGetLastError();
     return devices;
+}
+
+void use_device(int ordinal)
+{
+    check(cudaSetDevice(ordinal), "cudaSetDevice");
+}
+
+DeviceInfo current_device()
+{
+    int ordinal = 0;
+    cudaDeviceProp properties{};
+    check(cudaGetDevice(&ordinal), "cudaGetDevice");
+    check(cudaGetDeviceProperties(&properties, ordinal), "cudaGetDeviceProperties");
+    return describe(ordinal, properties);
 }
 
 }  // namespace spindrift::gpu

@@ -28,4 +28,9 @@ struct Devices
 /// Never throws; leaves no error behind.
 Devices find_devices();
 
+/// All that the calling thread does with CUDA from now on is done there. Throws Error.
+void use_device(int ordinal);
+/// Where it is done. Throws Error if there is no device.
+DeviceInfo current_device();
+
 }  // namespace spindrift::gpu

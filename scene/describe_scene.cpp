@@ -57,6 +57,18 @@ void describe_particles(Section& section, std::uint64_t& capacity)
                   capacity);
 }
 
+void describe_simulation(Section& section, std::uint32_t& reorder_every_steps)
+{
+    std::uint64_t steps = reorder_every_steps;
+    section.whole(
+        {.name = "reorder_every_steps",
+         .about = "steps after which flakes are put in the order of the wind cells that they read, so "
+                  "that neighbours in memory read the same ones; 0: never; the result is the same; "
+                  "also --reorder"},
+        {.min = 0, .max = 1e6, .allowed = "0 to 1000000"}, steps);
+    reorder_every_steps = static_cast<std::uint32_t>(steps);
+}
+
 void describe_vehicle(Section& section, std::vector<VehicleSettings>& vehicles)
 {
     VehicleSettings vehicle;
@@ -111,6 +123,8 @@ void describe_scene(Section& root, Scene& scene)
                  [&](Section& s) { describe_domain(s, scene.domain); });
     root.section({.name = "particles", .about = "how many flakes there is room for", .required = true},
                  [&](Section& s) { describe_particles(s, scene.capacity); });
+    root.section({.name = "simulation", .about = "how it is computed"},
+                 [&](Section& s) { describe_simulation(s, scene.reorder_every_steps); });
     describe_air(root, scene);
     root.sections({.name = "vehicle", .about = "moving points that snow, models and lights may follow"},
                   [&](Section& s) { describe_vehicle(s, scene.vehicles); });

@@ -57,6 +57,7 @@ void set_overrides(TomlDocument& document, const SceneOverrides& overrides)
     {
         if (value) document.set("wind", key, from_here(*value));
     };
+    set("simulation", "reorder_every_steps", overrides.reorder_every_steps);
     set("render", "sort", overrides.sort);
     set("render", "sort_passes_per_frame", overrides.sort_passes_per_frame);
     set("render", "frames_per_s", overrides.frames_per_s);

@@ -189,6 +189,7 @@ struct Scene
     double step_s = 1.0 / 60.0;
     std::uint64_t seed = 1;
     std::uint64_t capacity = 0;
+    std::uint32_t reorder_every_steps = 0;  ///< 0: never
     Snow snow;
     WindSettings wind;
     std::vector<EmitterSettings> emitters;
@@ -208,6 +209,7 @@ struct SceneOverrides
 {
     std::optional<std::uint64_t> particles;  ///< capacity, and bursts and rates scaled with it
     std::optional<std::uint64_t> seed;
+    std::optional<std::int64_t> reorder_every_steps;
     std::optional<std::string> sort;
     std::optional<int> sort_passes_per_frame;
     std::optional<int> width_px, height_px, frames;

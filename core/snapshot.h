@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -16,9 +17,23 @@
 namespace spindrift
 {
 
-/// Arrays of a snapshot, and the first of them that hold floats.
-inline constexpr std::size_t kFlakeArrays = 11;
-inline constexpr std::size_t kFlakeFloatArrays = 9;
+/// The arrays of the slots [0, used) as bits, without holes: Snapshot::arrays. Host only, as all here.
+inline std::vector<std::vector<std::uint32_t>> alive_arrays(const FlakeView& flakes, std::size_t used)
+{
+    std::vector<std::vector<std::uint32_t>> result;
+    for (const void* array : flake_words(flakes))
+    {
+        std::vector<std::uint32_t>& words = result.emplace_back();
+        for (std::size_t i = 0; i < used; ++i)
+        {
+            if (!is_alive(flakes.state[i])) continue;
+            std::uint32_t word = 0;
+            std::memcpy(&word, static_cast<const unsigned char*>(array) + 4 * i, 4);
+            words.push_back(word);
+        }
+    }
+    return result;
+}
 
 namespace detail
 {
@@ -42,7 +57,7 @@ inline void check_arrays(const Snapshot& s, std::uint64_t capacity, std::size_t 
 }  // namespace detail
 
 /// Throws Error unless a snapshot belongs to this World, its arrays are whole, fit the capacity, and hold
-/// finite, living flakes of emitters that exist. Host only.
+/// finite, living flakes of emitters that exist.
 inline void check_snapshot(const Snapshot& s, std::uint64_t world_hash, std::uint64_t capacity,
                            std::size_t emitters, const Anchors& anchors)
 {

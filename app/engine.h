@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "app/flake_memory.h"
+#include "app/options.h"
+#include "core/backend.h"
+#include "core/world.h"
+
+namespace spindrift::app
+{
+
+/// What moves the flakes of a run, and where they live. The backend works on the memory, which outlives it.
+struct Engine
+{
+    std::unique_ptr<FlakeMemory> memory;
+    std::unique_ptr<Backend> backend;
+    std::string about_memory;  ///< how the flakes come to GL, in words
+};
+
+/// Whether pictures are made; then a GL context must be current.
+enum class Drawing
+{
+    off,
+    on,
+};
+
+// Throw Error if the machine cannot do what was asked.
+
+Engine make_cpu_engine(const World& world, const RunOptions& options, std::uint32_t reorder_every_steps,
+                       Drawing drawing);
+Engine make_cuda_engine(const World& world, const RunOptions& options, std::uint32_t reorder_every_steps,
+                        Drawing drawing);
+
+/// What this build and machine have of CUDA.
+struct CudaSupport
+{
+    bool built = false;
+    std::vector<std::string> devices;  ///< in words, by ordinal
+    std::string none_because;          ///< in the runtime's words, if there is no device
+    std::string versions;              ///< of runtime and driver
+};
+CudaSupport cuda_support();
+
+}  // namespace spindrift::app

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#include "app/engine.h"
+#include "core/error.h"
+
+namespace spindrift::app
+{
+
+CudaSupport cuda_support()
+{
+    return {};
+}
+
+Engine make_cuda_engine(const World&, const RunOptions&, std::uint32_t, Drawing)
+{
+    throw Error("this build has no CUDA backend; use --backend cpu or --backend auto");
+}
+
+}  // namespace spindrift::app

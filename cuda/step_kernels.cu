@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "cuda/step_kernels.h"
+
+#include "core/flake_maker.h"
+#include "cuda/launch.cuh"
+#include "cuda/tally.cuh"
+
+namespace spindrift::gpu
+{
+
+namespace
+{
+
+/// A body for one thread: what a step decides from its counts.
+template <class Body>
+void launch_alone(StreamRef stream, const char* name, const Body& body)
+{
+    launch_blocks(stream, name, 1, 1, body);
+}
+
+__device__ void close_holes(StepControl& c, bool needed)
+{
+    c.closing = needed ? static_cast<std::uint32_t>(c.state.used) : 0U;
+    c.kept = 0;
+    if (!needed) return;
+    c.state.close_holes();
+    c.kept = static_cast<std::uint32_t>(c.state.used);
+    ++c.renumbered;
+}
+
+struct BeginStep
+{
+    StepAddresses step;
+
+    __device__ void operator()() const
+    {
+        StepControl& c = *step.control;
+        const std::uint64_t number = c.state.step;
+        step.place(static_cast<double>(number) * step.step_s, step.regions_before);
+        step.place(static_cast<double>(number + 1) * step.step_s, step.regions_after);
+        const std::uint64_t due = step.ledger.due(number);
+        close_holes(c, due > 0 && c.state.lacks_room(due, step.capacity));
+    }
+};
+
+struct ShareOut
+{
+    StepAddresses step;
+
+    __device__ void operator()() const
+    {
+        StepControl& c = *step.control;
+        c.first_slot = static_cast<std::uint32_t>(c.state.used);
+        c.first_id = static_cast<std::uint32_t>(c.state.next_id);
+        const EmissionLedger::Share share = step.ledger.share_out(c.state.step, step.capacity - c.state.used);
+        c.state.emit(share);
+        c.made = static_cast<std::uint32_t>(share.slots);
+        c.used = static_cast<std::uint32_t>(c.state.used);
+    }
+};
+
+__device__ StepParams now(StepParams step, const StepControl& control)
+{
+    step.number = static_cast<std::uint32_t>(control.state.step);
+    return step;
+}
+
+struct Emit
+{
+    StepAddresses step;
+    AdvectJob job;
+
+    __device__ void operator()(std::size_t i, const BlockTally& tally) const
+    {
+        const StepControl& c = *step.control;
+        const std::size_t e = step.ledger.emitter_of(i);
+        const FlakeMaker make{job, now(job.step, c)};
+        if (make(step.ledger.emitters[e], static_cast<std::uint32_t>(e),
+                 c.first_id + static_cast<std::uint32_t>(i), EmissionLedger::start_place(c.state.step),
+                 c.first_slot + i))
+            return;
+        tally.ended(Fate::vanished);
+        if (step.ledger.tries_again(e)) tally.lose(static_cast<std::uint32_t>(e));
+    }
+};
+
+template <class WindField, bool Turbulent>
+struct Advect
+{
+    const StepControl* control;
+    StepParams step;
+    WindField wind;
+    FallSpeed fall_speed;
+    Surroundings around;
+    FlakeView flakes;
+
+    __device__ void operator()(std::size_t i, const BlockTally& tally) const
+    {
+        const FlakeAdvector<float, WindField, Turbulent> advector{now(step, *control), wind, fall_speed,
+                                                                  around, flakes};
+        advector(i, tally);
+    }
+};
+
+template <class WindField>
+void advect_in(StreamRef stream, const StepAddresses& step, const AdvectJob& job, const WindField& wind)
+{
+    Surroundings around = job.around;
+    around.regions = step.regions_after;
+    const auto go = [&](const auto& advector)
+    { launch_tallied(stream, "advect", &step.control->used, step, advector); };
+    if (job.turbulent)
+        go(Advect<WindField, true>{step.control, job.step, wind, job.fall_speed, around, job.flakes});
+    else
+        go(Advect<WindField, false>{step.control, job.step, wind, job.fall_speed, around, job.flakes});
+}
+
+struct EndStep
+{
+    StepAddresses step;
+    Closing closing;
+
+    __device__ void operator()() const
+    {
+        StepControl& c = *step.control;
+        c.state.end(c.left, c.landed, c.vanished);
+        c.left = c.landed = c.vanished = 0;
+        for (std::size_t e = 0; e < step.ledger.count; ++e)
+        {
+            step.ledger.owed[e] += step.lost[e];
+            step.lost[e] = 0;
+        }
+        ++c.state.step;
+        close_holes(c, closing == Closing::always || c.state.has_many_holes());
+        c.used = static_cast<std::uint32_t>(c.state.used);
+    }
+};
+
+}  // namespace
+
+void begin_step(StreamRef stream, const StepAddresses& step)
+{
+    launch_alone(stream, "begin step", BeginStep{step});
+}
+
+void emit(StreamRef stream, const StepAddresses& step, const AdvectJob& job)
+{
+    launch_alone(stream, "share out", ShareOut{step});
+    AdvectJob at_start = job;
+    at_start.around.regions = step.regions_before;
+    launch_tallied(stream, "emit", &step.control->made, step, Emit{step, at_start});
+}
+
+void advect(StreamRef stream, const StepAddresses& step, const AdvectJob& job)
+{
+    switch (job.wind_kind)
+    {
+        case WindKind::uniform:
+            return advect_in(stream, step, job, job.uniform);
+        case WindKind::logarithmic:
+            return advect_in(stream, step, job, job.logarithmic);
+        case WindKind::grid:
+            return advect_in(stream, step, job, job.grid);
+    }
+}
+
+void end_step(StreamRef stream, const StepAddresses& step, Closing closing)
+{
+    launch_alone(stream, "end step", EndStep{step, closing});
+}
+
+}  // namespace spindrift::gpu
