@@ -61,6 +61,7 @@ measure::WantedSorts wanted_sorts(const SortsOptions& options)
     measure::WantedSorts wanted;
     wanted.cpu = options.backend != "cuda";
     wanted.cuda = options.backend != "cpu";
+    wanted.unsorted = true;
     const std::string no_cuda = measure::no_cuda_because();
     if (options.backend == "cuda" && !no_cuda.empty())
         throw Error(fmt::format("--backend cuda: {}; use --backend cpu or --backend auto", no_cuda));

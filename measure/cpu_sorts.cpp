@@ -43,6 +43,7 @@ SortTraits traits_of(const cpu::SortStrategy& strategy, int key_bits)
     traits.about = strategy.about;
     traits.key_bits = key_bits;
     traits.library = is_library(strategy.name);
+    traits.exact = strategy.sort != nullptr;
     traits.network = strategy.network;
     const bool full = key_bits == strategy.max_key_bits;
     // two passes do for 24 and 16 bits
@@ -84,7 +85,13 @@ class CpuContender final : public SortContender
         const cpu::SortJob job{arrays_->pairs.data(), arrays_->scratch.data(), n_, traits().key_bits};
         const bool own_threads = strategy_.name == "block-indirect";
         const auto free = own_threads ? std::make_unique<AnyCore>() : nullptr;
-        return time_ms([&] { result_ = passes_ ? passes_->sort(job, passes, start) : strategy_.sort(job); });
+        return time_ms(
+            [&]
+            {
+                result_ = passes_                     ? passes_->sort(job, passes, start)
+                          : strategy_.sort != nullptr ? strategy_.sort(job)
+                                                      : job.pairs;
+            });
     }
 
     std::span<const std::uint64_t> result() override { return {result_, n_}; }
@@ -119,8 +126,7 @@ std::vector<SortTraits> cpu_sorts()
 {
     std::vector<SortTraits> all;
     for (const cpu::SortStrategy& strategy : cpu::sort_strategies())
-        if (strategy.sort != nullptr || strategy.network)
-            all.push_back(traits_of(strategy, strategy.max_key_bits));
+        all.push_back(traits_of(strategy, strategy.max_key_bits));
     for (const int key_bits : {24, 16}) all.push_back(traits_of(*cpu::find_sort_strategy("radix"), key_bits));
     return all;
 }
