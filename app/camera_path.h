@@ -56,6 +56,8 @@ class CameraPath
     StageLog log_{StageLog::Keep::newest};
     std::string no_gl_because_;
     std::unique_ptr<gl::Context> context_;  ///< outlives all that holds GL objects
+    FlakeView flakes_{};
+    DrawListView draw_list_{};
     std::unique_ptr<Simulator> simulator_;
     std::optional<gl::Renderer> renderer_;
 
