@@ -12,6 +12,7 @@
 #include "cpu/snapshot_file.h"
 #include "gl/context.h"
 #include "image/write.h"
+#include "cpu/wind_projection.h"
 #include "scene/make_world.h"
 
 namespace spindrift
@@ -51,7 +52,7 @@ struct Simulation::Impl
     Impl(const std::filesystem::path& file, const SimulationOptions& options)
         : scene(scene::read_scene(file, overrides(options))),
           geometry(scene::read_geometry(scene)),
-          world(scene::make_world(scene, geometry))
+          world(scene::make_world(scene, geometry, cpu::project_wind()))
     {
         const bool pictures = options.pictures == Pictures::on;
         if (pictures) context = gl::make_headless_context();

@@ -13,6 +13,7 @@
 #include "app/window_loop.h"
 #include "core/error.h"
 #include "image/whole_file.h"
+#include "cpu/wind_projection.h"
 #include "scene/make_world.h"
 
 namespace spindrift::app
@@ -46,7 +47,7 @@ RunInput read_input(const RunOptions& options)
     scene::Scene scene = scene::read_scene(find_scene(options.scene), options.overrides);
     if (options.depth_bits) scene.render.depth_bits = *options.depth_bits;
     scene::Geometry geometry = scene::read_geometry(scene);
-    World world = scene::make_world(scene, geometry);
+    World world = scene::make_world(scene, geometry, cpu::project_wind());
     return {std::move(scene), std::move(geometry), std::move(world), choice};
 }
 

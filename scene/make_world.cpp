@@ -40,7 +40,10 @@ std::filesystem::path beside_scene(const Scene& scene, const std::filesystem::pa
 class Builder
 {
   public:
-    Builder(const Scene& scene, const Geometry& geometry) : scene_(scene), geometry_(geometry) {}
+    Builder(const Scene& scene, const Geometry& geometry, const WindProjector& project)
+        : scene_(scene), geometry_(geometry), project_(project)
+    {
+    }
 
     World build()
     {
@@ -185,8 +188,9 @@ class Builder
         wind.friction_velocity_m_s = static_cast<float>(friction);
         wind.turbulent = settings.turbulence && friction > 0;
         if (!settings.around_solids) return;
-        FlowField flow = cell_means(wind_around_solids(wind, world_.size_m, settings.cell_m, world_.voxels),
-                                    {0, 0, static_cast<double>(wind.ground_m)});
+        FlowField flow =
+            cell_means(wind_around_solids(wind, world_.size_m, settings.cell_m, world_.voxels, project_),
+                       {0, 0, static_cast<double>(wind.ground_m)});
         if (wind.turbulent) close_from_shear({z0, settings.boundary_layer_m, friction}, flow);
         fill_wind_grid(flow, wind);
     }
@@ -194,7 +198,7 @@ class Builder
     void set_file_wind()
     {
         const WindSettings& settings = scene_.wind;
-        make_divergence_free(file_->wind);
+        project_(file_->wind);
         FlowField flow = cell_means(file_->wind, {0, 0, 0});
         flow.stress = std::move(file_->stress);
         flow.c0_eps = std::move(file_->c0_eps);
@@ -259,6 +263,7 @@ class Builder
 
     const Scene& scene_;
     const Geometry& geometry_;
+    const WindProjector& project_;
     World world_;
     std::optional<HeightField> heights_;
     std::optional<WindFile> file_;
@@ -267,9 +272,9 @@ class Builder
 
 }  // namespace
 
-World make_world(const Scene& scene, const Geometry& geometry)
+World make_world(const Scene& scene, const Geometry& geometry, const WindProjector& project_wind)
 {
-    return Builder(scene, geometry).build();
+    return Builder(scene, geometry, project_wind).build();
 }
 
 }  // namespace spindrift::scene

@@ -50,7 +50,8 @@ bool mostly_solid(const VoxelGrid& voxels, const Vec3d& low, const Vec3d& high)
 
 }  // namespace
 
-StaggeredWind wind_around_solids(const Wind& profile, Vec3f size_m, double cell_m, const VoxelGrid& voxels)
+StaggeredWind wind_around_solids(const Wind& profile, Vec3f size_m, double cell_m, const VoxelGrid& voxels,
+                                 const WindProjector& project)
 {
     const double ground = profile.ground_m;
     const Vec3d extent{size_m.x, size_m.y, size_m.z - ground};
@@ -85,7 +86,7 @@ StaggeredWind wind_around_solids(const Wind& profile, Vec3f size_m, double cell_
                     const Vec3d low{x * wind.cell_m.x, y * wind.cell_m.y, ground + z * wind.cell_m.z};
                     if (mostly_solid(voxels, low, low + wind.cell_m)) wind.solid[n.index(x, y, z)] = 1;
                 }
-    make_divergence_free(wind);
+    project(wind);
     return wind;
 }
 
