@@ -10,9 +10,9 @@
 #include "app/machine.h"
 #include "app/simulator.h"
 #include "cpu/snapshot_file.h"
+#include "cpu/wind_projection.h"
 #include "gl/context.h"
 #include "image/write.h"
-#include "cpu/wind_projection.h"
 #include "scene/make_world.h"
 
 namespace spindrift

@@ -7,8 +7,8 @@
 #include "app/find_scene.h"
 #include "app/run_report.h"
 #include "core/flake.h"
-#include "gl/frame_plan.h"
 #include "cpu/wind_projection.h"
+#include "gl/frame_plan.h"
 #include "scene/make_world.h"
 
 namespace spindrift::app

@@ -12,8 +12,8 @@
 #include "app/run_loop.h"
 #include "app/window_loop.h"
 #include "core/error.h"
-#include "image/whole_file.h"
 #include "cpu/wind_projection.h"
+#include "image/whole_file.h"
 #include "scene/make_world.h"
 
 namespace spindrift::app

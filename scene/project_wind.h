@@ -15,6 +15,9 @@ namespace spindrift::scene
 StaggeredWind wind_around_solids(const Wind& profile, Vec3f size_m, double cell_m, const VoxelGrid& voxels,
                                  const WindProjector& project);
 
+/// Marks the cells of `wind` of whose voxels half or more are solid; `low_m`: its lower corner.
+void mark_solids(StaggeredWind& wind, Vec3d low_m, const VoxelGrid& voxels);
+
 /// Cell means of a staggered wind; no turbulence yet.
 FlowField cell_means(const StaggeredWind& wind, Vec3d low_m);
 
