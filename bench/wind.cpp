@@ -92,7 +92,7 @@ double solve_ms(const Case& c, const PoissonSettings& settings, std::vector<doub
 void report(benchmark::State& state, const Case& c, const std::vector<double>& ms, const PoissonResult& done)
 {
     std::vector<double> other(c.b.size()), copies;
-    for (int i = 0; i < 5; ++i)
+    for (int i = 0; i < 21; ++i)
         copies.push_back(
             time_ms([&] { parallel_copy(other.data(), c.b.data(), c.b.size() * sizeof(double)); }));
     const double cells = static_cast<double>(c.problem.part.size());
