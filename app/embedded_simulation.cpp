@@ -10,6 +10,7 @@
 #include "app/machine.h"
 #include "app/simulator.h"
 #include "cpu/snapshot_file.h"
+#include "cpu/wind_projection.h"
 #include "gl/context.h"
 #include "image/write.h"
 #include "scene/make_world.h"
@@ -52,7 +53,7 @@ struct Simulation::Impl
     Impl(const std::filesystem::path& file, const SimulationOptions& options)
         : scene(scene::read_scene(file, overrides(options))),
           geometry(scene::read_geometry(scene)),
-          world(scene::make_world(scene, geometry))
+          world(scene::make_world(scene, geometry, cpu::project_wind()))
     {
         const bool pictures = options.pictures == Pictures::on;
         if (pictures) context = gl::make_headless_context();

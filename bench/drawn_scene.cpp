@@ -10,6 +10,7 @@
 #include "cpu/cpu_backend.h"
 #include "cpu/tile_splatter.h"
 #include "reference/reference.h"
+#include "cpu/wind_projection.h"
 #include "scene/make_world.h"
 
 namespace spindrift::bench
@@ -33,7 +34,7 @@ DrawnScene::DrawnScene(const std::string& name, std::uint64_t particles, int wid
     : context_(gl::make_headless_context()),
       scene_(shipped_scene(name, particles, width_px, height_px)),
       geometry_(scene::read_geometry(scene_)),
-      world_(scene::make_world(scene_, geometry_)),
+      world_(scene::make_world(scene_, geometry_, cpu::project_wind())),
       buffers_(std::make_unique<gl::FlakeBuffers>(world_.capacity)),
       backend_(cpu::make_cpu_backend(world_, buffers_->flakes(), buffers_->draw_list(), {})),
       splatter_(cpu::make_tile_splatter({})),

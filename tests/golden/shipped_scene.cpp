@@ -23,7 +23,7 @@ Shown show(const Showing& showing)
         scene::read_scene(SPINDRIFT_SOURCE_DIR "/scenes/" + showing.name + ".toml", overrides);
     scene.render.flake_path = showing.path;
     const scene::Geometry geometry = scene::read_geometry(scene);
-    const World world = scene::make_world(scene, geometry);
+    const World world = scene::make_world(scene, geometry, cpu::project_wind());
     const gl::FlakeBuffers buffers(world.capacity);
     const auto backend = cpu::make_cpu_backend(world, buffers.flakes(), buffers.draw_list(), {});
     const auto steps = static_cast<int>(std::lround(showing.time_s / world.step_s));
