@@ -59,6 +59,9 @@ class CameraPath
     std::unique_ptr<Simulator> simulator_;
     std::optional<gl::Renderer> renderer_;
 
+    const std::uint32_t* ids_now_ = nullptr;  ///< by slot; in the simulator's memory, as the next
+    std::uint64_t* pairs_ = nullptr;
+
     double time_s_ = 0;
     View view_;
     KeptOrder kept_order_;

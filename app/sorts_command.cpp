@@ -87,7 +87,7 @@ struct Study
     measure::WantedSorts wanted;
     int frames;
     std::string pictures_by = "none: no scene";
-    std::vector<SortRow> rows;
+    std::vector<SortRow> rows{};
 
     void add(std::vector<SortRow> more)
     {
