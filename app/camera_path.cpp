@@ -29,9 +29,9 @@ CameraPath::CameraPath(scene::Scene scene)
         no_gl_because_ = error.what();
     }
     auto memory = context_ ? make_shared_memory(world_.capacity) : make_host_memory(world_.capacity);
-    ids_now_ = memory->flakes().id;
-    pairs_ = memory->draw_list().pairs;
-    auto backend = cpu::make_cpu_backend(world_, memory->flakes(), memory->draw_list(), cpu::CpuOptions{});
+    flakes_ = memory->flakes();
+    draw_list_ = memory->draw_list();
+    auto backend = cpu::make_cpu_backend(world_, flakes_, draw_list_, {});
     simulator_ = std::make_unique<Simulator>(std::move(memory), std::move(backend), log_);
     if (context_)
         renderer_.emplace(scene_, geometry_, world_, *simulator_->memory().drawn_from(),
@@ -51,11 +51,12 @@ void CameraPath::go_to(std::uint64_t frame)
 KeysOfFrame CameraPath::keys()
 {
     KeysOfFrame keys;
+    const std::uint64_t* const pairs = draw_list_.pairs;
     for (std::size_t i = 0; i < keys.pairs.size(); ++i)
     {
         const DrawList list =
             simulator_->prepare(view_, {.strategy = "none", .depth_bits = KeysOfFrame::kBits[i]});
-        keys.pairs[i].assign(pairs_, pairs_ + list.count);
+        keys.pairs[i].assign(pairs, pairs + list.count);
     }
     return keys;
 }
@@ -69,7 +70,7 @@ SortStart CameraPath::start()
 /// The backend does not say; a slot that holds another flake than at the last frame does.
 bool CameraPath::slots_were_renumbered()
 {
-    const std::uint32_t* const ids = ids_now_;
+    const std::uint32_t* const ids = flakes_.id;
     const std::size_t used = simulator_->backend().slots_used();
     const std::size_t both = std::min(used, ids_.size());
     const bool renumbered = !std::equal(ids_.begin(), ids_.begin() + static_cast<std::ptrdiff_t>(both), ids);
@@ -85,7 +86,7 @@ std::string CameraPath::pictures_by() const
 
 image::Image CameraPath::picture(std::span<const std::uint64_t> order)
 {
-    std::copy(order.begin(), order.end(), pairs_);
+    std::copy(order.begin(), order.end(), draw_list_.pairs);
     DrawList list;
     list.count = order.size();
     list.sorted = true;

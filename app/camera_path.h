@@ -56,11 +56,10 @@ class CameraPath
     StageLog log_{StageLog::Keep::newest};
     std::string no_gl_because_;
     std::unique_ptr<gl::Context> context_;  ///< outlives all that holds GL objects
+    FlakeView flakes_{};
+    DrawListView draw_list_{};
     std::unique_ptr<Simulator> simulator_;
     std::optional<gl::Renderer> renderer_;
-
-    const std::uint32_t* ids_now_ = nullptr;  ///< by slot; in the simulator's memory, as the next
-    std::uint64_t* pairs_ = nullptr;
 
     double time_s_ = 0;
     View view_;

@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "app/backend_choice.h"
 #include "app/camera_path.h"
 #include "app/commands.h"
 #include "app/exit_codes.h"
@@ -62,6 +61,7 @@ measure::WantedSorts wanted_sorts(const SortsOptions& options)
     measure::WantedSorts wanted;
     wanted.cpu = options.backend != "cuda";
     wanted.cuda = options.backend != "cpu";
+    wanted.unsorted = true;
     const std::string no_cuda = measure::no_cuda_because();
     if (options.backend == "cuda" && !no_cuda.empty())
         throw Error(fmt::format("--backend cuda: {}; use --backend cpu or --backend auto", no_cuda));
@@ -87,7 +87,7 @@ struct Study
     measure::WantedSorts wanted;
     int frames;
     std::string pictures_by = "none: no scene";
-    std::vector<SortRow> rows{};
+    std::vector<SortRow> rows = {};
 
     void add(std::vector<SortRow> more)
     {

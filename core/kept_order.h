@@ -13,6 +13,10 @@ enum class SortStart
     as_kept,  ///< the order of the last frame; the first time: ascending slots
 };
 
+/// What keeping an order moves, in bytes a pair: places cleared, filled and closed up, new pairs taken out
+/// and put behind, ranks cleared and written.
+inline constexpr double kKeptOrderBytesPerPair = 8 + 20 + 16 + 12 + 12 + 16;
+
 /// Whether a sort that goes on from the order of the last frame may do so. Decided alike on every backend.
 class KeptOrder
 {

@@ -60,6 +60,19 @@ inline std::size_t network_steps(Network network, std::size_t n)
     return network == Network::bitonic ? stages * (stages + 1) / 2 : n;
 }
 
+/// Elements that fit near the processor (32 KiB of pairs): steps that stay in aligned tiles of so many run
+/// together, on every backend.
+inline constexpr std::size_t kNetworkTile = 4096;
+
+/// How often the whole bitonic network moves all n elements when steps that stay in tiles run together.
+inline std::size_t bitonic_sweeps(std::size_t n)
+{
+    if (n < 2) return 0;
+    const int beyond = bitonic_stages(n) - bitonic_stages(kNetworkTile);
+    const auto b = static_cast<std::size_t>(beyond > 0 ? beyond : 0);
+    return 1 + b * (b + 3) / 2;  // a stage that goes b doublings beyond a tile: b steps, and the tiles once
+}
+
 /// The steps of a network one after the other, round and round; the number of elements may change between
 /// two steps, as the number of visible flakes does between two frames.
 class NetworkWalk

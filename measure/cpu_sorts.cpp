@@ -25,9 +25,13 @@ bool is_library(std::string_view name)
     return std::ranges::find(libraries, name) != libraries.end();
 }
 
-// Passes of a network: cleared, filled and closed places, new pairs taken out and appended, ranks cleared and
-// written (docs/sorting.md); then each step, where it does not stay in a tile, reads and writes each pair.
-constexpr double kKeptOrderBytes = 8 + 20 + 16 + 12 + 12 + 16;
+double passes_bytes(Network network, std::size_t n, int passes)
+{
+    const auto steps = static_cast<double>(std::max<std::size_t>(network_steps(network, n), 1));
+    const double sweeps_a_step =
+        network == Network::bitonic ? static_cast<double>(bitonic_sweeps(n)) / steps : 1;
+    return kKeptOrderBytesPerPair + 16 * sweeps_a_step * passes;
+}
 
 SortTraits traits_of(const cpu::SortStrategy& strategy, int key_bits)
 {
@@ -39,12 +43,14 @@ SortTraits traits_of(const cpu::SortStrategy& strategy, int key_bits)
     traits.about = strategy.about;
     traits.key_bits = key_bits;
     traits.library = is_library(strategy.name);
+    traits.exact = strategy.sort != nullptr;
     traits.network = strategy.network;
     const bool full = key_bits == strategy.max_key_bits;
     // two passes do for 24 and 16 bits
     const double own = full ? strategy.bytes_moved_per_pair_32 : 8 + 2 * 16;
     if (strategy.network)
-        traits.bytes_per_pair = [](std::size_t, int passes) { return kKeptOrderBytes + 16.0 * passes; };
+        traits.bytes_per_pair = [network = *strategy.network](std::size_t n, int passes)
+        { return passes_bytes(network, n, passes); };
     else
         traits.bytes_per_pair = [own](std::size_t, int) { return own; };
     return traits;
@@ -79,7 +85,13 @@ class CpuContender final : public SortContender
         const cpu::SortJob job{arrays_->pairs.data(), arrays_->scratch.data(), n_, traits().key_bits};
         const bool own_threads = strategy_.name == "block-indirect";
         const auto free = own_threads ? std::make_unique<AnyCore>() : nullptr;
-        return time_ms([&] { result_ = passes_ ? passes_->sort(job, passes, start) : strategy_.sort(job); });
+        return time_ms(
+            [&]
+            {
+                result_ = passes_                     ? passes_->sort(job, passes, start)
+                          : strategy_.sort != nullptr ? strategy_.sort(job)
+                                                      : job.pairs;
+            });
     }
 
     std::span<const std::uint64_t> result() override { return {result_, n_}; }
@@ -114,8 +126,7 @@ std::vector<SortTraits> cpu_sorts()
 {
     std::vector<SortTraits> all;
     for (const cpu::SortStrategy& strategy : cpu::sort_strategies())
-        if (strategy.sort != nullptr || strategy.network)
-            all.push_back(traits_of(strategy, strategy.max_key_bits));
+        all.push_back(traits_of(strategy, strategy.max_key_bits));
     for (const int key_bits : {24, 16}) all.push_back(traits_of(*cpu::find_sort_strategy("radix"), key_bits));
     return all;
 }

@@ -27,6 +27,7 @@ SortTraits traits_of(const gpu::SortStrategy& strategy, int key_bits)
     traits.key_bits = key_bits;
     traits.library =
         strategy.name == "cub-radix" || strategy.name == "thrust" || strategy.name == "cub-merge";
+    traits.exact = !strategy.network;
     traits.network = strategy.network;
     traits.bytes_per_pair = [bytes = strategy.bytes_per_pair, key_bits](std::size_t n, int passes)
     { return bytes(n, key_bits, passes); };

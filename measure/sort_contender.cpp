@@ -13,6 +13,8 @@ std::vector<SortTraits> list_sorts(const WantedSorts& wanted)
 {
     std::vector<SortTraits> all;
     if (wanted.cpu) all = cpu_sorts();
+    if (!wanted.unsorted)
+        std::erase_if(all, [](const SortTraits& traits) { return traits.strategy == "none"; });
     if (wanted.cuda)
         for (SortTraits& traits : cuda_sorts()) all.push_back(std::move(traits));
     if (!wanted.strategies.empty())

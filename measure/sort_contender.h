@@ -25,6 +25,7 @@ struct SortTraits
     std::string about;
     int key_bits = 32;
     bool library = false;            ///< not our own
+    bool exact = true;               ///< at its key bits
     std::optional<Network> network;  ///< set: a sort over frames, not exact
     /// Bytes a pair that its passes move, of n pairs with so many passes a frame; 0: depends on the data.
     std::function<double(std::size_t n, int passes)> bytes_per_pair;
@@ -56,6 +57,7 @@ class SortContender
 struct WantedSorts
 {
     bool cpu = true, cuda = true;
+    bool unsorted = false;                ///< "none" too: the order of slots
     std::vector<std::string> strategies;  ///< empty: all
 };
 

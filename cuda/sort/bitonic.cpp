@@ -31,7 +31,7 @@ SortStrategy bitonic()
             .make = [](std::size_t) -> std::unique_ptr<DeviceSort> { return std::make_unique<Bitonic>(); },
             .max_key_bits = 32,
             .bytes_per_pair = [](std::size_t n, int, int)
-            { return 16.0 * static_cast<double>(network_launches(n, network_steps(Network::bitonic, n))); }};
+            { return 16.0 * static_cast<double>(bitonic_sweeps(n)); }};
 }
 
 }  // namespace sorts

@@ -4,6 +4,7 @@
 #include "core/sort_network.h"
 #include "cuda/buffer.h"
 #include "cuda/launch.cuh"
+#include "cuda/sort/put_in_order.cuh"
 #include "cuda/sort/strategy.h"
 
 // One counting pass over 65 536 buckets. Threads reach a bucket in any order, so each bucket is then sorted
@@ -18,7 +19,8 @@ namespace
 constexpr unsigned kBuckets = 1U << 16;
 constexpr unsigned kWarp = 32;
 constexpr unsigned kWarps = kBlockThreads / kWarp;  // buckets of a block
-constexpr unsigned kTile = 4096;                    // 32 KiB of shared memory
+constexpr unsigned kTile = kNetworkTile;            // 32 KiB of shared memory
+constexpr unsigned kBlocks = 1024;                  // enough for any device; each takes buckets in turn
 constexpr unsigned kScanThreads = 1024;
 
 __device__ unsigned bucket_of(std::uint64_t pair)
@@ -74,12 +76,6 @@ struct Scatter
     }
 };
 
-__device__ void put_in_order(std::uint64_t& lower, std::uint64_t& upper)
-{
-    const std::uint64_t a = lower, b = upper;
-    if (b < a) lower = b, upper = a;
-}
-
 /// All threads of a block sort `size` pairs in shared or global memory: the bitonic network of core/.
 __device__ void sort_by_block(std::uint64_t* pairs, unsigned size)
 {
@@ -116,27 +112,32 @@ struct SortBuckets
         if (lane < size) first[rank] = own;
     }
 
+    __device__ void sort_by_block_in_tile(std::uint64_t* first, unsigned size, std::uint64_t* tile) const
+    {
+        for (unsigned i = threadIdx.x; i < size; i += kBlockThreads) tile[i] = first[i];
+        __syncthreads();
+        sort_by_block(tile, size);
+        for (unsigned i = threadIdx.x; i < size; i += kBlockThreads) first[i] = tile[i];
+        __syncthreads();
+    }
+
     __device__ void operator()() const
     {
         __shared__ std::uint64_t tile[kTile];
-        const unsigned own = blockIdx.x * kWarps + threadIdx.x / kWarp;
-        const unsigned own_size = ends[own] - begin_of(own);
-        if (own_size > 1 && own_size <= kWarp) sort_by_warp(pairs + begin_of(own), own_size);
-        for (unsigned bucket = blockIdx.x * kWarps; bucket < (blockIdx.x + 1) * kWarps; ++bucket)
+        for (unsigned group = blockIdx.x * kWarps; group < kBuckets; group += gridDim.x * kWarps)
         {
-            const unsigned size = ends[bucket] - begin_of(bucket);
-            std::uint64_t* const first = pairs + begin_of(bucket);
-            if (size <= kWarp) continue;
-            if (size > kTile)
+            const unsigned own = group + threadIdx.x / kWarp;
+            const unsigned own_size = ends[own] - begin_of(own);
+            if (own_size > 1 && own_size <= kWarp) sort_by_warp(pairs + begin_of(own), own_size);
+            for (unsigned bucket = group; bucket < group + kWarps; ++bucket)
             {
-                sort_by_block(first, size);
-                continue;
+                const unsigned size = ends[bucket] - begin_of(bucket);
+                if (size <= kWarp) continue;
+                if (size <= kTile)
+                    sort_by_block_in_tile(pairs + begin_of(bucket), size, tile);
+                else
+                    sort_by_block(pairs + begin_of(bucket), size);
             }
-            for (unsigned i = threadIdx.x; i < size; i += kBlockThreads) tile[i] = first[i];
-            __syncthreads();
-            sort_by_block(tile, size);
-            for (unsigned i = threadIdx.x; i < size; i += kBlockThreads) first[i] = tile[i];
-            __syncthreads();
         }
     }
 };
@@ -153,7 +154,7 @@ class Bucket16 final : public DeviceSort
         launch(stream, "sort: bucket16, count", job.n, Count{job.pairs, places_.data()});
         launch_blocks(stream, "sort: bucket16, places", 1, kScanThreads, CountsToPlaces{places_.data()});
         launch(stream, "sort: bucket16, scatter", job.n, Scatter{job.pairs, places_.data(), job.scratch});
-        launch_blocks(stream, "sort: bucket16, buckets", kBuckets / kWarps, kBlockThreads,
+        launch_blocks(stream, "sort: bucket16, buckets", kBlocks, kBlockThreads,
                       SortBuckets{job.scratch, places_.data()});
         return job.scratch;
     }

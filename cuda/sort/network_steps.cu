@@ -2,8 +2,10 @@
 #include "cuda/sort/network_steps.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "cuda/launch.cuh"
+#include "cuda/sort/put_in_order.cuh"
 
 namespace spindrift::gpu
 {
@@ -11,16 +13,10 @@ namespace spindrift::gpu
 namespace
 {
 
-constexpr std::size_t kTile = 4096;  // 32 KiB of shared memory
+constexpr std::size_t kTile = kNetworkTile;  // 32 KiB of shared memory
 constexpr unsigned kTileThreads = 512;
 constexpr int kMostTileSteps = 96;  // the first twelve stages have 78
 constexpr std::size_t kMostOddEvenSteps = 1024;
-
-__device__ void put_in_order(std::uint64_t& lower, std::uint64_t& upper)
-{
-    const std::uint64_t a = lower, b = upper;
-    if (b < a) lower = b, upper = a;
-}
 
 struct AcrossTiles
 {
@@ -109,47 +105,30 @@ unsigned blocks_of(std::size_t n, std::size_t each)
     return static_cast<unsigned>((n + each - 1) / each);
 }
 
-/// Calls across(step) for each step that crosses tiles and in_tiles(steps, how many) for those between.
-template <class Across, class InTileGroup>
-void group_steps(NetworkWalk& walk, std::size_t n, std::size_t steps, const Across& across,
-                 const InTileGroup& in_tiles)
-{
-    NetworkStep group[kMostTileSteps];
-    int grouped = 0;
-    const auto close_group = [&]
-    {
-        if (grouped > 0) in_tiles(group, grouped);
-        grouped = 0;
-    };
-    for (std::size_t s = 0; s < steps; ++s)
-    {
-        const NetworkStep step = walk.next(n);
-        const bool stays = step.stays_in_tiles_of(kTile);
-        if (!stays || grouped == kMostTileSteps) close_group();
-        if (stays)
-            group[grouped++] = step;
-        else
-            across(step);
-    }
-    close_group();
-}
-
 }  // namespace
 
 void run_network(StreamRef stream, NetworkWalk& walk, std::uint64_t* pairs, std::size_t n, std::size_t steps)
 {
     if (n < 2) return;
-    group_steps(
-        walk, n, steps,
-        [&](const NetworkStep& step) {
+    InTiles together{pairs, n, 0, {}};
+    const auto run_together = [&]
+    {
+        if (together.count > 0)
+            launch_blocks(stream, "sort: network steps in tiles", blocks_of(n, kTile), kTileThreads,
+                          together);
+        together.count = 0;
+    };
+    for (std::size_t s = 0; s < steps; ++s)
+    {
+        const NetworkStep step = walk.next(n);
+        const bool stays = step.stays_in_tiles_of(kTile);
+        if (!stays || together.count == kMostTileSteps) run_together();
+        if (stays)
+            together.steps[together.count++] = step;
+        else
             launch(stream, "sort: network step", step.comparators(n), AcrossTiles{pairs, step});
-        },
-        [&](const NetworkStep* group, int count)
-        {
-            InTiles body{pairs, n, count, {}};
-            std::copy_n(group, count, body.steps);
-            launch_blocks(stream, "sort: network steps in tiles", blocks_of(n, kTile), kTileThreads, body);
-        });
+    }
+    run_together();
 }
 
 std::uint64_t* run_odd_even(StreamRef stream, NetworkWalk& walk, std::uint64_t* pairs, std::uint64_t* other,
@@ -167,17 +146,6 @@ std::uint64_t* run_odd_even(StreamRef stream, NetworkWalk& walk, std::uint64_t* 
         steps -= static_cast<std::size_t>(count);
     }
     return pairs;
-}
-
-std::size_t network_launches(std::size_t n, std::size_t steps)
-{
-    if (n < 2) return 0;
-    std::size_t launches = 0;
-    NetworkWalk walk(Network::bitonic);
-    group_steps(
-        walk, n, steps, [&](const NetworkStep&) { ++launches; },
-        [&](const NetworkStep*, int) { ++launches; });
-    return launches;
 }
 
 }  // namespace spindrift::gpu

@@ -19,7 +19,4 @@ void run_network(StreamRef stream, NetworkWalk& walk, std::uint64_t* pairs, std:
 std::uint64_t* run_odd_even(StreamRef stream, NetworkWalk& walk, std::uint64_t* pairs, std::uint64_t* other,
                             std::size_t n, std::size_t steps);
 
-/// How many kernels run_network launches for the first `steps` steps; each reads and writes every pair once.
-std::size_t network_launches(std::size_t n, std::size_t steps);
-
 }  // namespace spindrift::gpu

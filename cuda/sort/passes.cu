@@ -162,10 +162,6 @@ class PassSort final : public DeviceSort
     std::size_t kept_ = 0;
 };
 
-// Of the order that is kept: places cleared, filled and closed up, new ones taken out and appended, ranks
-// cleared and written.
-constexpr double kKeptOrderBytes = 8 + 20 + 16 + 12 + 12 + 16;
-
 }  // namespace
 
 namespace sorts
@@ -183,7 +179,7 @@ SortStrategy bitonic_passes()
             {
                 const std::size_t all = std::max<std::size_t>(network_steps(Network::bitonic, n), 1);
                 const double share = static_cast<double>(passes) / static_cast<double>(all);
-                return kKeptOrderBytes + 16.0 * share * static_cast<double>(network_launches(n, all));
+                return kKeptOrderBytesPerPair + 16.0 * share * static_cast<double>(bitonic_sweeps(n));
             },
             .network = Network::bitonic};
 }
@@ -196,7 +192,7 @@ SortStrategy odd_even_passes()
             { return std::make_unique<PassSort>(Network::odd_even, capacity); },
             .max_key_bits = 32,
             .bytes_per_pair = [](std::size_t, int, int passes)
-            { return kKeptOrderBytes + 16.0 * ((passes + 1023) / 1024); },
+            { return kKeptOrderBytesPerPair + 16.0 * ((passes + 1023) / 1024); },
             .network = Network::odd_even};
 }
 

@@ -43,7 +43,7 @@ TEST_F(SortsCommand, MeasuresEverySortOnMadeUpKeys)
     EXPECT_THAT(run.output,
                 AllOf(HasSubstr("random, 1K pairs, 3 frames"), HasSubstr("camera-sweep, 777 pairs"),
                       HasSubstr("radix/16-bit"), HasSubstr("x floor")));
-    constexpr std::size_t kSorts = 11;  // nine that sort, and radix at 24 and 16 bits
+    constexpr std::size_t kSorts = 12;  // ten, and radix at 24 and 16 bits
     const json rows = json::parse(read(file)).at("rows");
     ASSERT_EQ(rows.size(), 4 * kSorts);
     const std::string text = read(csv);
@@ -52,14 +52,15 @@ TEST_F(SortsCommand, MeasuresEverySortOnMadeUpKeys)
     {
         SCOPED_TRACE(row.dump());
         EXPECT_EQ(row.at("frames"), 3);
-        EXPECT_GT(row.at("median_ms"), 0);
+        if (row.at("sort") != "none") EXPECT_GT(row.at("median_ms"), 0);
         EXPECT_GT(row.at("floor_ms"), 0);
         EXPECT_TRUE(row.at("image_relative_l2").is_null()) << "no scene, no picture";
         const bool passes = !row.at("passes_per_frame").is_null();
         if (passes) EXPECT_EQ(row.at("passes_per_frame"), 4);
-        if (row.at("key_bits") == 32 && !passes) EXPECT_EQ(row.at("inversion_fraction"), 0);
+        if (row.at("key_bits") == 32 && !passes && row.at("sort") != "none")
+            EXPECT_EQ(row.at("inversion_fraction"), 0);
         if (passes && row.at("input") == "random") EXPECT_GT(row.at("inversion_fraction"), 0.01);
-        EXPECT_LT(row.at("inversion_fraction"), 0.5);
+        EXPECT_LT(row.at("inversion_fraction"), 0.6);
     }
 }
 

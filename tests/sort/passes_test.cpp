@@ -85,6 +85,18 @@ TEST(SortNetwork, SortsEverySequenceOfZerosAndOnes)
             }
 }
 
+TEST(SortNetwork, KnowsItsStepsAndSweeps)
+{
+    EXPECT_EQ(network_steps(Network::bitonic, 1), 0U);
+    EXPECT_EQ(network_steps(Network::bitonic, 15'000), 105U);
+    EXPECT_EQ(network_steps(Network::bitonic, 1'000'000), 210U);
+    EXPECT_EQ(network_steps(Network::odd_even, 777), 777U);
+    EXPECT_EQ(bitonic_sweeps(4096), 1U);
+    EXPECT_EQ(bitonic_sweeps(std::size_t{1} << 20), 45U);
+    EXPECT_EQ(bitonic_sweeps(std::size_t{1} << 22), 66U);
+    EXPECT_EQ(bitonic_sweeps(std::size_t{1} << 24), 91U);
+}
+
 class EveryNetwork : public testing::TestWithParam<Network>
 {
 };
