@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cpu/cpu_backend.h"
+#include "cpu/wind_projection.h"
 #include "gl/context.h"
 #include "gl/frame_plan.h"
 #include "gl/renderer.h"
