@@ -9,8 +9,8 @@
 #include "core/snow.h"
 #include "cpu/cpu_backend.h"
 #include "cpu/tile_splatter.h"
-#include "reference/reference.h"
 #include "cpu/wind_projection.h"
+#include "reference/reference.h"
 #include "scene/make_world.h"
 
 namespace spindrift::bench

@@ -22,7 +22,8 @@ using Attributes = std::vector<std::pair<std::string, std::string>>;
 class WindLayout
 {
   public:
-    explicit WindLayout(const GriddedWind& wind) : wind_(wind.solved.wind), zone_(wind.solved.zone), flow_(wind.flow)
+    explicit WindLayout(const GriddedWind& wind)
+        : wind_(wind.solved.wind), zone_(wind.solved.zone), flow_(wind.flow)
     {
     }
 

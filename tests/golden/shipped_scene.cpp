@@ -5,6 +5,7 @@
 
 #include "cpu/cpu_backend.h"
 #include "cpu/tile_splatter.h"
+#include "cpu/wind_projection.h"
 #include "gl/context.h"
 #include "gl/frame_plan.h"
 #include "gl/renderer.h"
