@@ -9,12 +9,14 @@
 #include <benchmark/benchmark.h>
 #include <tbb/task_arena.h>
 
-#include "bench/timing.h"
 #include "core/grid_size.h"
 #include "cpu/poisson_solver.h"
+#include "measure/timing.h"
 
 namespace spindrift::bench
 {
+
+using namespace measure;
 
 namespace
 {
