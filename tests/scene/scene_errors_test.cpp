@@ -89,7 +89,8 @@ void expect_errors(const std::vector<Case>& cases)
 TEST(SceneErrors, UnknownNamesTheNearest)
 {
     const std::string tables =
-        "use scene, domain, particles, snow, wind, vehicle, emitter, ground, box, model, voxels, light, sky, "
+        "use scene, domain, particles, simulation, snow, wind, vehicle, emitter, ground, box, model, voxels, "
+        "light, sky, "
         "camera or render";
     expect_errors({
         {with("[scene]\nsede = 4\n"),
@@ -405,7 +406,7 @@ TEST(SceneErrors, ChoicesNameTheNearest)
              kSorts},
         {with("[render]\nsort_passes_per_frame = 0\n"),
          "s.toml:10: render.sort_passes_per_frame = 0 is below 1 (steps of bitonic-passes and "
-         "odd-even-passes; also --sort-passes); use 1 to 4096"},
+         "odd-even-passes; also --sort-passes); use a whole number, 1 to 4096"},
         {with("[snow]\ncrystal = \"dendrite\"\n"),
          "s.toml:10: snow.crystal = \"dendrite\" is not among the choices (nearest: dendrites); use "
          "dendrites, plates, rimed or "
