@@ -27,6 +27,7 @@ FrameDrawer::FrameDrawer(const scene::Scene& scene, const scene::Geometry& geome
       geometry_(geometry),
       simulator_(simulator),
       log_(log),
+      brightest_emission_(scene::brightest_emission(geometry)),
       renderer_(scene, geometry, world, *simulator.memory().drawn_from(), scene.render.width_px,
                 scene.render.height_px)
 {
@@ -46,6 +47,8 @@ gl::FramePlan FrameDrawer::plan(const View& view, double time_s) const
     stats.flakes_moved = stale_ || backend.step_number() != last_step_;
     stats.camera_moved = !last_view_ || !same(view, *last_view_);
     stats.drawn = list_.count;
+    stats.exposed = last_time_s_ == time_s;
+    stats.brightest_emission = brightest_emission_;
     return gl::plan_frame(scene_, view, stats, time_s, geometry_.model_lights);
 }
 
@@ -60,6 +63,7 @@ void FrameDrawer::draw(const View& view, double time_s)
         list_ = {};
     stale_ = false;
     last_view_ = view;
+    last_time_s_ = time_s;
     last_step_ = simulator_.backend().step_number();
     drawn_.push_back(static_cast<float>(list_.count));
     culled_.push_back(static_cast<float>(list_.culled));

@@ -50,6 +50,7 @@ void DrawnScene::prepare()
     view_ = scene::camera_at(scene_, time_s_);
     gl::FrameStats stats;
     stats.counts = backend_->counts();
+    stats.brightest_emission = scene::brightest_emission(geometry_);
     plan_ = gl::plan_frame(scene_, view_, stats, time_s_, geometry_.model_lights);
     SortSettings sort;
     sort.strategy = plan_.runs("sort") ? scene_.render.sort : "none";

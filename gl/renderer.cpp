@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "gl/active_lights.h"
+#include "gl/bloom_pass.h"
 #include "gl/crystal_texture.h"
+#include "gl/exposure_pass.h"
 #include "gl/flake_look.h"
 #include "gl/flake_pass.h"
 #include "gl/frame_constants.h"
@@ -16,6 +19,7 @@
 #include "gl/pass_timers.h"
 #include "gl/picture.h"
 #include "gl/scene_pass.h"
+#include "gl/tone_pass.h"
 #include "scene/crystals.h"
 
 namespace spindrift::gl
@@ -45,8 +49,11 @@ struct Renderer::Impl
     Texture mask_texture;
     Picture picture;
     ScenePass scene_pass;
-    FullScreenPass sky, tone, depth_tiles;
+    FullScreenPass sky, depth_tiles;
     FlakePass flakes;
+    ExposurePass exposure;
+    std::optional<BloomPass> bloom;  ///< made when a plan first asks for it
+    TonePass tone;
     Buffer frame_block;
     Buffer light_buffer;
     std::size_t light_room = 0;
@@ -63,9 +70,10 @@ struct Renderer::Impl
           picture(width, height),
           scene_pass(s, geometry),
           sky("sky.vert", "sky.frag"),
-          tone("tone.vert", "tone.frag"),
           depth_tiles("tone.vert", "depth_tiles.frag"),
           flakes(s.render, static_cast<double>(w.snow.weight), buffers),
+          exposure(s.render, width, height),
+          tone(s),
           frame_block(make_buffer(sizeof(FrameConstants), nullptr, GL_DYNAMIC_STORAGE_BIT))
     {
     }
@@ -81,7 +89,7 @@ struct Renderer::Impl
     void draw_solid(const FramePlan& plan, const View& view, std::size_t lights, double time_s);
     void draw_flakes(const FramePlan& plan, const View& view, const DrawList& list, std::size_t lights);
     void prepare_depth();
-    void draw_tone(const FramePlan& plan);
+    void develop(const FramePlan& plan, double time_s);
 
     template <class Draw>
     void timed(const char* name, const Draw& draw)
@@ -179,16 +187,18 @@ void Renderer::Impl::prepare_depth()
     glBindFramebuffer(GL_FRAMEBUFFER, picture.linear_target.name());
 }
 
-void Renderer::Impl::draw_tone(const FramePlan& plan)
+void Renderer::Impl::develop(const FramePlan& plan, double time_s)
 {
+    const GLuint linear = picture.linear.name();
+    if (plan.runs("exposure")) timed("exposure", [&] { exposure.draw(linear, time_s); });
+    exposure.bind();
+    const bool blooms = plan.runs("bloom");
+    if (blooms && !bloom) bloom.emplace(scene.bloom, picture.width, picture.height);
+    if (blooms) timed("bloom", [&] { bloom->draw(linear); });
     if (!plan.runs("tone")) return;
-    glBindFramebuffer(GL_FRAMEBUFFER, picture.encode_target.name());
+    glBindFramebuffer(GL_FRAMEBUFFER, picture.display_target.name());
     glViewport(0, 0, picture.width, picture.height);
-    glDisable(GL_DEPTH_TEST);
-    glEnable(GL_FRAMEBUFFER_SRGB);
-    glBindTextureUnit(0, picture.linear.name());
-    timed("tone", [&] { tone.draw(); });
-    glDisable(GL_FRAMEBUFFER_SRGB);
+    timed("tone", [&] { tone.draw(linear, blooms ? &*bloom : nullptr); });
 }
 
 Renderer::Renderer(const scene::Scene& scene, const scene::Geometry& geometry, const World& world,
@@ -214,7 +224,7 @@ void Renderer::draw(const FramePlan& plan, const View& view, const DrawList& fla
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     m.draw_solid(plan, view, lights.size(), time_s);
     m.draw_flakes(plan, view, flakes, lights.size());
-    m.draw_tone(plan);
+    m.develop(plan, time_s);
 }
 
 void Renderer::wait_for_flakes() const
@@ -229,8 +239,20 @@ void Renderer::wait_for_flakes() const
 
 void Renderer::resize(int width_px, int height_px)
 {
-    if (width_px != impl_->picture.width || height_px != impl_->picture.height)
-        impl_->picture = Picture(width_px, height_px);
+    if (width_px == impl_->picture.width && height_px == impl_->picture.height) return;
+    impl_->picture = Picture(width_px, height_px);
+    impl_->exposure.resize(width_px, height_px);
+    impl_->bloom.reset();
+}
+
+double Renderer::exposure() const
+{
+    return impl_->exposure.exposure();
+}
+
+bool Renderer::found_bright() const
+{
+    return impl_->bloom && impl_->bloom->found_bright();
 }
 
 image::Image Renderer::read_linear() const

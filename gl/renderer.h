@@ -44,6 +44,10 @@ class Renderer
     image::Image8 read_display() const;                           ///< after tone curve and sRGB
     void present(int framebuffer_width, int framebuffer_height);  ///< to the window's back buffer
 
+    /// Of the last frame, when it had such a pass; both wait for the GPU.
+    double exposure() const;
+    bool found_bright() const;  ///< false: the bloom pass found nothing to spread, and spread nothing
+
     /// GPU times of the last frame that is complete, by pass (GL timer queries); empty before the first.
     std::vector<PassTime> times() const;
 

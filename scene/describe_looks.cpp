@@ -221,8 +221,7 @@ void describe_render(Section& section, RenderSettings& render)
         {.min = 16, .max = 32, .allowed = "16, 24 or 32"}, render.depth_bits);
     section.require(render.depth_bits % 8 == 0, "depth_bits",
                     "is not a width that the sorts have (whole bytes)", "use 16, 24 or 32");
-    section.number({.name = "exposure", .about = "factor on all light before the tone curve"},
-                   {.min = 0, .max = 1e6, .above_min = true}, render.exposure);
+    describe_exposure(section, render);
     section.number({.name = "flake_opacity", .about = "at the centre of a flake"}, kShare,
                    render.flake_opacity);
     section.number({.name = "flake_scale",
@@ -242,6 +241,7 @@ void describe_looks(Section& root, Scene& scene)
                  [&](Section& s) { describe_camera(s, scene.camera); });
     root.section({.name = "render", .about = "the pictures"},
                  [&](Section& s) { describe_render(s, scene.render); });
+    describe_development(root, scene);
 }
 
 }  // namespace spindrift::scene
