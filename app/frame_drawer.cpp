@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/frame_drawer.h"
 
+#include "cpu/tile_splatter.h"
+
 namespace spindrift::app
 {
 
@@ -22,14 +24,16 @@ bool same(const View& a, const View& b)
 }  // namespace
 
 FrameDrawer::FrameDrawer(const scene::Scene& scene, const scene::Geometry& geometry, const World& world,
-                         Simulator& simulator, StageLog& log)
+                         Simulator& simulator, const gl::ContextInfo& gl, StageLog& log)
     : scene_(scene),
       geometry_(geometry),
       simulator_(simulator),
       log_(log),
       brightest_emission_(scene::brightest_emission(geometry)),
+      gl_(gl.software ? gl::GlKind::software : gl::GlKind::hardware),
+      splatter_(cpu::make_tile_splatter(simulator.options())),
       renderer_(scene, geometry, world, *simulator.memory().drawn_from(), scene.render.width_px,
-                scene.render.height_px)
+                scene.render.height_px, splatter_.get())
 {
 }
 
@@ -49,7 +53,7 @@ gl::FramePlan FrameDrawer::plan(const View& view, double time_s) const
     stats.drawn = list_.count;
     stats.exposed = last_time_s_ == time_s;
     stats.brightest_emission = brightest_emission_;
-    return gl::plan_frame(scene_, view, stats, time_s, geometry_.model_lights);
+    return gl::plan_frame(scene_, view, stats, time_s, geometry_.model_lights, gl_);
 }
 
 void FrameDrawer::draw(const View& view, double time_s)

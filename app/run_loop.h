@@ -6,6 +6,7 @@
 #include "app/backend_choice.h"
 #include "app/frame_clock.h"
 #include "app/interrupt.h"
+#include "app/luminance_log.h"
 #include "app/options.h"
 #include "app/outputs.h"
 #include "app/run_report.h"
@@ -33,6 +34,7 @@ struct RunState
     const RunInput& input;
     InterruptWatch interrupt;
     StageLog log;
+    LuminanceLog luminance;
     RunReport report;
 };
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/error.h"
 #include "gl/active_lights.h"
 #include "gl/bloom_pass.h"
 #include "gl/crystal_texture.h"
@@ -19,6 +20,7 @@
 #include "gl/pass_timers.h"
 #include "gl/picture.h"
 #include "gl/scene_pass.h"
+#include "gl/tile_pass.h"
 #include "gl/tone_pass.h"
 #include "scene/crystals.h"
 
@@ -54,6 +56,9 @@ struct Renderer::Impl
     ExposurePass exposure;
     std::optional<BloomPass> bloom;  ///< made when a plan first asks for it
     TonePass tone;
+    std::optional<TonePass> low_range;  ///< made when it is first asked for
+    TilePass tiles;
+    Splatter* splatter;
     Buffer frame_block;
     Buffer light_buffer;
     std::size_t light_room = 0;
@@ -61,7 +66,7 @@ struct Renderer::Impl
     GLsync flakes_read = nullptr;
 
     Impl(const scene::Scene& s, const scene::Geometry& geometry, const World& w, const FlakeBuffers& buffers,
-         int width, int height)
+         int width, int height, Splatter* blender)
         : scene(s),
           snow(w.snow),
           seed(w.seed),
@@ -74,6 +79,8 @@ struct Renderer::Impl
           flakes(s.render, static_cast<double>(w.snow.weight), buffers),
           exposure(s.render, width, height),
           tone(s),
+          tiles(s, w, buffers),
+          splatter(blender),
           frame_block(make_buffer(sizeof(FrameConstants), nullptr, GL_DYNAMIC_STORAGE_BIT))
     {
     }
@@ -84,12 +91,13 @@ struct Renderer::Impl
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
-    void upload_lights(const std::vector<PackedLight>& lights);
+    void upload_lights(const std::vector<Lamp<float>>& lamps);
     FrameConstants constants(const View& view, std::size_t lights, double time_s) const;
     void draw_solid(const FramePlan& plan, const View& view, std::size_t lights, double time_s);
     void draw_flakes(const FramePlan& plan, const View& view, const DrawList& list, std::size_t lights);
     void prepare_depth();
     void develop(const FramePlan& plan, double time_s);
+    void draw_tiles(const FramePlan& plan, const TilePass::Frame& frame);
 
     template <class Draw>
     void timed(const char* name, const Draw& draw)
@@ -100,8 +108,10 @@ struct Renderer::Impl
     }
 };
 
-void Renderer::Impl::upload_lights(const std::vector<PackedLight>& lights)
+void Renderer::Impl::upload_lights(const std::vector<Lamp<float>>& lamps)
 {
+    std::vector<PackedLight> lights;
+    for (const Lamp<float>& lamp : lamps) lights.push_back(pack(lamp));
     if (lights.size() > light_room || !light_buffer)
     {
         light_room = std::max<std::size_t>(lights.size() * 2, 8);
@@ -187,6 +197,20 @@ void Renderer::Impl::prepare_depth()
     glBindFramebuffer(GL_FRAMEBUFFER, picture.linear_target.name());
 }
 
+void Renderer::Impl::draw_tiles(const FramePlan& plan, const TilePass::Frame& frame)
+{
+    if (splatter == nullptr)
+        throw Error("the frame plan draws flakes in tiles, but the renderer has no splatter");
+    timed("tiles",
+          [&]
+          {
+              if (plan.runs("tone") && plan.tone_in_tiles)
+                  tiles.blend_and_develop(*splatter, frame, picture);
+              else
+                  tiles.blend(*splatter, frame, picture);
+          });
+}
+
 void Renderer::Impl::develop(const FramePlan& plan, double time_s)
 {
     const GLuint linear = picture.linear.name();
@@ -202,8 +226,8 @@ void Renderer::Impl::develop(const FramePlan& plan, double time_s)
 }
 
 Renderer::Renderer(const scene::Scene& scene, const scene::Geometry& geometry, const World& world,
-                   const FlakeBuffers& buffers, int width_px, int height_px)
-    : impl_(std::make_unique<Impl>(scene, geometry, world, buffers, width_px, height_px))
+                   const FlakeBuffers& buffers, int width_px, int height_px, Splatter* splatter)
+    : impl_(std::make_unique<Impl>(scene, geometry, world, buffers, width_px, height_px, splatter))
 {
 }
 Renderer::~Renderer() = default;
@@ -213,10 +237,11 @@ void Renderer::draw(const FramePlan& plan, const View& view, const DrawList& fla
     Impl& m = *impl_;
     if (view.width_px != m.picture.width || view.height_px != m.picture.height)
         resize(view.width_px, view.height_px);
+    m.tiles.discard();
     m.timers.begin_frame();
-    const std::vector<PackedLight> lights = plan.runs("lights")
-                                                ? active_lights(m.scene, m.model_lights, view, time_s).lights
-                                                : std::vector<PackedLight>{};
+    const std::vector<Lamp<float>> lights = plan.runs("lights")
+                                                ? active_lights(m.scene, m.model_lights, view, time_s).lamps
+                                                : std::vector<Lamp<float>>{};
     m.upload_lights(lights);
     const FrameConstants constants = m.constants(view, lights.size(), time_s);
     glNamedBufferSubData(m.frame_block.name(), 0, sizeof(constants), &constants);
@@ -224,7 +249,13 @@ void Renderer::draw(const FramePlan& plan, const View& view, const DrawList& fla
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     m.draw_solid(plan, view, lights.size(), time_s);
     m.draw_flakes(plan, view, flakes, lights.size());
-    m.develop(plan, time_s);
+    const bool in_tiles = plan.runs("tiles");
+    if (in_tiles)
+    {
+        const scene::Colour& ambient = m.scene.sky.ambient;
+        m.draw_tiles(plan, {view, flakes, lights, {ambient.r, ambient.g, ambient.b}, time_s});
+    }
+    if (!in_tiles || !plan.tone_in_tiles) m.develop(plan, time_s);
 }
 
 void Renderer::wait_for_flakes() const
@@ -240,6 +271,7 @@ void Renderer::wait_for_flakes() const
 void Renderer::resize(int width_px, int height_px)
 {
     if (width_px == impl_->picture.width && height_px == impl_->picture.height) return;
+    impl_->tiles.discard();
     impl_->picture = Picture(width_px, height_px);
     impl_->exposure.resize(width_px, height_px);
     impl_->bloom.reset();
@@ -257,6 +289,7 @@ bool Renderer::found_bright() const
 
 image::Image Renderer::read_linear() const
 {
+    impl_->tiles.bring_back(impl_->picture);
     const Picture& picture = impl_->picture;
     const std::size_t row = static_cast<std::size_t>(picture.width) * 4;
     const auto rows = static_cast<std::size_t>(picture.height);
@@ -282,6 +315,22 @@ image::Image8 Renderer::read_display() const
         for (std::size_t x = 0; x < columns; ++x)
             std::copy_n(&pixels[((rows - 1 - y) * columns + x) * 4], 3, &image.rgb[(y * columns + x) * 3]);
     return image;
+}
+
+void Renderer::develop_low_range()
+{
+    Impl& m = *impl_;
+    m.tiles.bring_back(m.picture);
+    if (!m.low_range)
+    {
+        scene::Scene plain = m.scene;
+        plain.display.tone = ToneCurve::linear;
+        m.low_range.emplace(plain);
+    }
+    m.exposure.bind();
+    glBindFramebuffer(GL_FRAMEBUFFER, m.picture.display_target.name());
+    glViewport(0, 0, m.picture.width, m.picture.height);
+    m.low_range->draw(m.picture.linear.name(), nullptr);
 }
 
 void Renderer::present(int framebuffer_width, int framebuffer_height)
