@@ -9,8 +9,8 @@
 namespace spindrift
 {
 
-// Bloom: what of the light is bright, and how far it spreads (docs/drawing.md). shaders/bright.glsl mirrors
-// the templates.
+// Bloom: what of the light is bright, and how far it spreads (docs/drawing.md). shaders/bright_part.glsl
+// mirrors the templates.
 
 /// What a pixel counts as: NaN and negative light are none, infinity is the largest half float. A pixel that
 /// went wrong stays one pixel.

@@ -7,8 +7,8 @@
 namespace spindrift
 {
 
-// What shines of a surface: a Blinn-Phong lobe of unit energy. shaders/scene.frag mirrors it. Source:
-// Hoffman, Physically based shading (SIGGRAPH 2013 course notes), for the factor (n + 8) / (8 pi).
+// What shines of a surface: a Blinn-Phong lobe that gives back all light of a lamp overhead.
+// shaders/scene.frag mirrors it. Source: Giesen, Phong and Blinn-Phong normalization factors (2009).
 
 /// A material as the lobe sees it; colours are linear Rec.709.
 template <class R>
@@ -33,6 +33,15 @@ SPINDRIFT_HD Gloss<R> gloss_of(const Vec3<R>& albedo, const R& roughness, const 
             number<R>(2) / (least * least) - number<R>(2)};
 }
 
+/// The lobe's height, 1/sr: its integral over the half space, times the cosine, is 1.
+template <class R>
+SPINDRIFT_HD R lobe_height(const R& exponent)
+{
+    const R two = number<R>(2), four = number<R>(4);
+    return (exponent + two) * (exponent + four) /
+           (number<R>(25.132741228718345) * (exp2(exponent / -two) + exponent));
+}
+
 /// Radiance towards `to_eye` per irradiance on a face towards the lamp; all vectors are units.
 template <class R>
 SPINDRIFT_HD R highlight(const R& exponent, const Vec3<R>& normal, const Vec3<R>& to_lamp,
@@ -42,8 +51,7 @@ SPINDRIFT_HD R highlight(const R& exponent, const Vec3<R>& normal, const Vec3<R>
     const Vec3<R> sum = to_lamp + to_eye;
     const R length = max(sqrt(dot(sum, sum)), number<R>(1e-6));
     const R facing = max(dot(normal, sum) / length, zero);
-    return (exponent + number<R>(8)) * number<R>(0.039788735772973836) * pow(facing, exponent) *
-           max(dot(normal, to_lamp), zero);
+    return lobe_height(exponent) * pow(facing, exponent) * max(dot(normal, to_lamp), zero);
 }
 
 }  // namespace spindrift

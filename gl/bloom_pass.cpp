@@ -23,8 +23,8 @@ constexpr GLint kRadius = 1;
 
 FullScreenPass make_bright(int scale)
 {
-    if (scale == 1) return {"tone.vert", "bloom_bright.frag"};
-    return {"tone.vert", "bloom_bright.frag", std::array<std::string_view, 1>{"HALF"}};
+    if (scale == 1) return {"develop.vert", "bloom_bright.frag"};
+    return {"develop.vert", "bloom_bright.frag", std::array<std::string_view, 1>{"HALF"}};
 }
 
 /// Weight of the middle tap; that of the next over it; the factor by which this ratio falls.
@@ -69,7 +69,7 @@ BloomPass::BloomPass(const scene::BloomSettings& settings, int width_px, int hei
 const FullScreenPass& BloomPass::program(std::string_view fragment_file,
                                          std::span<const std::string_view> defines)
 {
-    return programs_.emplace_back("tone.vert", fragment_file, defines);
+    return programs_.emplace_back("full_screen.vert", fragment_file, defines);
 }
 
 const FloatTarget& BloomPass::target(int scale_x, int scale_y)

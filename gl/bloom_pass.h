@@ -67,7 +67,7 @@ class BloomPass
     Buffer command_;
 };
 
-/// The uniform `bright` of shaders/bright.glsl.
+/// The uniform `bright_in` of shaders/develop.vert.
 glm::vec3 bright_uniform(const scene::BloomSettings& settings);
 
 }  // namespace spindrift::gl

@@ -24,8 +24,8 @@ FloatTarget make_blocks(int width_px, int height_px)
 
 ExposurePass::ExposurePass(const scene::RenderSettings& settings, int width_px, int height_px)
     : settings_(settings),
-      meter_("tone.vert", "meter.frag"),
-      expose_("tone.vert", "expose.frag"),
+      meter_("full_screen.vert", "meter.frag"),
+      expose_("full_screen.vert", "expose.frag"),
       blocks_(make_blocks(width_px, height_px)),
       nowhere_(GL_R32F, 1, 1)
 {

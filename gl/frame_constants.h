@@ -16,7 +16,7 @@ struct FrameConstants
     glm::vec4 up_tan{};
     glm::vec4 forward_near{};
     glm::vec4 ambient_far{};
-    glm::vec4 zenith_exposure{};
+    glm::vec4 zenith{};
     glm::vec4 horizon_focal{};
     glm::vec4 look{};
     glm::vec4 sprite{};

@@ -75,7 +75,7 @@ struct Renderer::Impl
           picture(width, height),
           scene_pass(s, geometry),
           sky("sky.vert", "sky.frag"),
-          depth_tiles("tone.vert", "depth_tiles.frag"),
+          depth_tiles("full_screen.vert", "depth_tiles.frag"),
           flakes(s.render, static_cast<double>(w.snow.weight), buffers),
           exposure(s.render, width, height),
           tone(s),
@@ -138,7 +138,7 @@ FrameConstants Renderer::Impl::constants(const View& view, std::size_t lights, d
     c.up_tan = vec4(view.up, tan_y);
     c.forward_near = vec4(view.forward, view.near_m);
     c.ambient_far = vec4(scene.sky.ambient, view.far_m);
-    c.zenith_exposure = vec4(scene.sky.zenith, static_cast<float>(scene.render.exposure));
+    c.zenith = vec4(scene.sky.zenith, 0);
     c.horizon_focal = vec4(scene.sky.horizon, height / (2 * tan_y));
     c.look = {mean_melted_mm(snow), scale, static_cast<float>(scene.render.flake_opacity),
               snow.weight / (scale * scale)};

@@ -37,7 +37,7 @@ void set_material(GLuint program, const scene::Material& material)
     glProgramUniform3f(program, kEmission, e.r, e.g, e.b);
     if (!shines(material)) return;
     const Gloss<float> gloss = gloss_of(Vec3f{a.r, a.g, a.b}, material.roughness, material.metallic);
-    const Vec3f& m = gloss.mirrored;
+    const Vec3f m = gloss.mirrored * lobe_height(gloss.exponent);
     glProgramUniform4f(program, kGloss, m.x, m.y, m.z, gloss.exponent);
     glProgramUniform3f(program, kMatt, gloss.matt.x, gloss.matt.y, gloss.matt.z);
 }

@@ -55,7 +55,7 @@ const FullScreenPass& TonePass::variant(bool blooms) const
     std::vector<std::string_view> defines{curve_define(tone_.curve)};
     if (blooms) defines.emplace_back("BLOOM");
     if (dither_) defines.emplace_back("DITHER");
-    variant.emplace("tone.vert", "tone.frag", defines);
+    variant.emplace("develop.vert", "tone.frag", defines);
     const glm::vec3 bright = bright_uniform(bloom_);
     glProgramUniform3f(variant->program(), kBright, bright.x, bright.y, bright.z);
     glProgramUniform3f(variant->program(), kTone, static_cast<float>(tone_.white),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Sum of the log2 luminances of every fourth pixel each way in a block of 32 x 32, and their number (core/exposure.h).
-#include "bright.glsl"
+#include "contained.glsl"
 layout(binding = 0) uniform sampler2D linear_picture;
 layout(location = 0) out vec2 sum_and_count;
 

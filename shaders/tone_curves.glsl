@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The tone curves of core/tone.h, with their sources; TONE says which one. Matrices are transposed here: GLSL counts by columns.
-layout(location = 1) uniform vec3 tone;  // white, scale, offset
-
 vec3 tone_reinhard(vec3 c)
 {
     float y = max(dot(c, vec3(0.2126, 0.7152, 0.0722)), 1e-30);

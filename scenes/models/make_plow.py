@@ -25,19 +25,25 @@ MATERIALS = {  # name: (albedo, emission, roughness or None for matt, metallic)
 LAMPS = {"amber": [(-0.95, -0.2, 3.05), (0.95, -0.2, 3.05)], "red": [(-1.05, -0.12, 1.05), (1.05, -0.12, 1.05)]}
 
 
+def number_of(table, triple):
+    """In the order of first mention, from 1 on."""
+    return table.setdefault(tuple(round(c, 3) for c in triple), len(table) + 1)
+
+
 class Mesh:
     """Polygons by material; counter-clockwise seen from outside."""
 
     def __init__(self):
         self.vertices = {}
+        self.normals = {}
         self.faces = {}
 
-    def face(self, material, *points):
-        indices = []
-        for point in points:
-            key = tuple(round(c, 3) for c in point)
-            indices.append(self.vertices.setdefault(key, len(self.vertices) + 1))
-        self.faces.setdefault(material, []).append(indices)
+    def face(self, material, *points, normals=()):
+        """Flat, or with a normal for each point."""
+        corners = [str(number_of(self.vertices, point)) for point in points]
+        if normals:
+            corners = [f"{corner}//{number_of(self.normals, normal)}" for corner, normal in zip(corners, normals)]
+        self.faces.setdefault(material, []).append(corners)
 
     def box(self, material, low, high):
         (x0, y0, z0), (x1, y1, z1) = low, high
@@ -67,9 +73,10 @@ class Mesh:
     def write(self, path):
         lines = ["# snow plow; written by make_plow.py; y up, metres", "mtllib plow.mtl"]
         lines += ["v {:g} {:g} {:g}".format(x, z, -y) for x, y, z in self.vertices]
+        lines += ["vn {:g} {:g} {:g}".format(x, z, -y) for x, y, z in self.normals]
         for material, faces in self.faces.items():
             lines.append(f"usemtl {material}")
-            lines += ["f " + " ".join(map(str, face)) for face in faces]
+            lines += ["f " + " ".join(face) for face in faces]
         path.write_text("\n".join(lines) + "\n")
 
 
@@ -82,9 +89,17 @@ def flap(mesh, x):
         bulge = 0.04 * math.cos(across * math.pi / 2) + 0.05 * math.sin(down * math.pi)
         return x + 0.32 * across, -0.08 - bulge, 0.95 - 0.67 * down
 
+    def normal(row, column):
+        across, down = column / columns * 2 - 1, row / rows
+        by_x = 0.04 * math.pi / 2 * math.sin(across * math.pi / 2) / 0.32  # slopes of y along x and z
+        by_z = 0.05 * math.pi * math.cos(down * math.pi) / 0.67
+        length = math.sqrt(by_x**2 + 1 + by_z**2)
+        return by_x / length, -1 / length, by_z / length
+
     for row in range(rows):
         for column in range(columns):
-            mesh.face("flap", point(row + 1, column), point(row + 1, column + 1), point(row, column + 1), point(row, column))
+            corners = [(row + 1, column), (row + 1, column + 1), (row, column + 1), (row, column)]
+            mesh.face("flap", *(point(*c) for c in corners), normals=[normal(*c) for c in corners])
 
 
 def plow():
