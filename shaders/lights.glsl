@@ -16,6 +16,7 @@ layout(std140, binding = 1) uniform FewLights { Light lights[8]; };
 layout(std430, binding = 5) readonly buffer Lights { Light lights[]; };
 #endif
 
+// The same light for places that are told from the eye.
 Light seen_from(Light light, vec3 eye)
 {
     light.place.xyz -= eye * light.place.w;
@@ -24,8 +25,7 @@ Light seen_from(Light light, vec3 eye)
 
 const float kNearestLight = 0.05;  // m
 
-// Irradiance of light i at p on a surface that faces it; to_light is the unit vector towards it. One root and one
-// division: software GL feels each.
+// Irradiance of light i at p on a surface that faces it; to_light is the unit vector towards it.
 vec3 irradiance(Light light, vec3 p, out vec3 to_light)
 {
     vec3 way = light.place.xyz - p * light.place.w;
