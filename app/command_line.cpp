@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/command_line.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -36,6 +37,7 @@ Examples:
   spindrift wind town -o wind.nc                             solve for its wind, for ParaView, xarray and QES-Plume
   spindrift explain town                                     what a frame does and why
   spindrift sorts --scene town                               which sort suits this machine and scene
+  spindrift run plow --headless --beside-ldr --out plow.png  low beside high dynamic range
 )";
 
 constexpr const char* kRunExamples = R"(
@@ -77,6 +79,19 @@ Size parse_size(const std::string& text)
             "--size", fmt::format("{} is no size; use WIDTHxHEIGHT in pixels, each 1 to {}, such as 1280x720",
                                   text, kMost));
     return size;
+}
+
+/// "640,360"
+std::array<int, 2> parse_pixel(const std::string& text)
+{
+    int end = 0;
+    std::array<int, 2> pixel{};
+    const int fields = std::sscanf(text.c_str(), "%6d,%6d%n", &pixel[0], &pixel[1], &end);
+    if (fields != 2 || end != static_cast<int>(text.size()) || pixel[0] < 0 || pixel[1] < 0)
+        throw CLI::ValidationError(
+            "--pixel",
+            fmt::format("{} is no pixel; use COLUMN,ROW from the upper left, such as 640,360", text));
+    return pixel;
 }
 
 void check_rate(double frames_per_s)
@@ -243,6 +258,27 @@ void add_run(CLI::App& app, RunOptions& options)
                     "Where the pictures go: x.mp4, x_%04d.png or .exr (every frame), x.png or .exr (the "
                     "last). May be repeated")
         ->type_name("PATTERN")
+        ->allow_extra_args(false)
+        ->group(output);
+    command
+        .add_flag("--beside-ldr", options.beside_ldr,
+                  "Pictures twice as wide: on the left what 8 bits would hold, without bloom or curve")
+        ->group(output);
+    command
+        .add_option("--luminance", options.luminance,
+                    "Luminance of the pixels of --pixel in cd/m2, frame by frame, as CSV; the scene's "
+                    "[display] must be calibrated")
+        ->type_name("FILE")
+        ->group(output);
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--pixel",
+            [&options](const std::vector<std::string>& texts)
+            {
+                for (const std::string& text : texts) options.pixels.push_back(parse_pixel(text));
+            },
+            "A pixel for --luminance: column and row from the upper left. May be repeated")
+        ->type_name("X,Y")
         ->allow_extra_args(false)
         ->group(output);
     command.add_option("--stats", options.stats, "Counts, hash, times and what was skipped, as JSON")

@@ -37,6 +37,7 @@ FrameDrawer::FrameDrawer(const scene::Scene& scene, const scene::Geometry& geome
       geometry_(geometry),
       simulator_(simulator),
       log_(log),
+      brightest_emission_(scene::brightest_emission(geometry)),
       gl_(gl_kind(gl, *simulator.memory().drawn_from())),
       splatter_(cpu::make_tile_splatter(cpu)),
       renderer_(scene, geometry, world, *simulator.memory().drawn_from(), scene.render.width_px,
@@ -58,6 +59,8 @@ gl::FramePlan FrameDrawer::plan(const View& view, double time_s, const FlakeCoun
     stats.flakes_moved = stale_ || backend.step_number() != last_step_;
     stats.camera_moved = !last_view_ || !same(view, *last_view_);
     stats.drawn = list_.count;
+    stats.exposed = last_time_s_ == time_s;
+    stats.brightest_emission = brightest_emission_;
     return gl::plan_frame(scene_, view, stats, time_s, geometry_.model_lights, gl_);
 }
 
@@ -76,6 +79,7 @@ void FrameDrawer::draw(const View& view, double time_s)
         list_ = {};
     stale_ = false;
     last_view_ = view;
+    last_time_s_ = time_s;
     last_step_ = simulator_.backend().step_number();
     drawn_.push_back(static_cast<float>(list_.count));
     culled_.push_back(static_cast<float>(list_.culled));

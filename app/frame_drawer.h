@@ -48,12 +48,14 @@ class FrameDrawer
     const scene::Geometry& geometry_;
     Simulator& simulator_;
     StageLog& log_;
+    double brightest_emission_;
     gl::GlKind gl_;
     std::unique_ptr<Splatter> splatter_;
     gl::Renderer renderer_;
     PlanLog plans_;
     bool stale_ = true;  ///< the draw list must be made anew whatever moved
     std::optional<View> last_view_;
+    std::optional<double> last_time_s_;
     std::uint64_t last_step_ = 0;
     DrawList list_;
     std::vector<float> drawn_, culled_;

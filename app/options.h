@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -36,7 +37,10 @@ struct RunOptions
     std::optional<cpu::Simd> simd;
     std::optional<bool> cuda_graph;  ///< this one is CUDA's
     Interop interop = Interop::automatic;
-    std::optional<std::uint64_t> steps;  ///< simulate this many and draw nothing
+    std::optional<std::uint64_t> steps;      ///< simulate this many and draw nothing
+    bool beside_ldr = false;                 ///< pictures twice as wide: low dynamic range on the left
+    std::filesystem::path luminance;         ///< table of the pixels' luminance, frame by frame
+    std::vector<std::array<int, 2>> pixels;  ///< column and row from the upper left
     std::filesystem::path stats, save_snapshot, load_snapshot;
     bool hash = false;
 };

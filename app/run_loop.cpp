@@ -102,6 +102,7 @@ void draw_frames(RunState& run, Simulator& simulator, FrameDrawer& drawer, const
         if (!advance(run, simulator, clock.steps_before(k))) return;
         const double time_s = clock.time_s(k);
         drawer.draw(scene::camera_at(run.input.scene, time_s), time_s);
+        run.luminance.add(drawer.renderer(), k, time_s);
         outputs.add(drawer.renderer(), run.log);
         run.report.frames = k + 1;
         bar.show(k + 1);

@@ -54,6 +54,7 @@ void DrawnScene::prepare()
     view_ = scene::camera_at(scene_, time_s_);
     gl::FrameStats stats;
     stats.counts = backend_->counts();
+    stats.brightest_emission = scene::brightest_emission(geometry_);
     plan_ = gl::plan_frame(scene_, view_, stats, time_s_, geometry_.model_lights,
                            context_->info().software ? gl::GlKind::software : gl::GlKind::hardware);
     SortSettings sort;
@@ -68,14 +69,16 @@ void DrawnScene::draw()
     glFinish();
 }
 
-void DrawnScene::draw_pass(std::string_view name)
+void DrawnScene::draw_passes(std::initializer_list<std::string_view> names)
 {
-    const bool in_tiles = name == "tiles" && plan_.runs("tiles");
-    if (name == "tone" && plan_.runs("tiles")) return;
+    const auto named = [&](std::string_view name)
+    { return std::find(names.begin(), names.end(), name) != names.end(); };
+    const bool develops_in_tiles = plan_.runs("tiles") && plan_.tone_in_tiles;
+    if (develops_in_tiles && named("tone") && !named("tiles")) return;
     gl::FramePlan alone = plan_;
     for (gl::PlannedPass& pass : alone.passes)
-        pass.runs =
-            pass.runs && (pass.name == name || pass.name == "lights" || (in_tiles && pass.name == "tone"));
+        pass.runs = pass.runs && (named(pass.name) || pass.name == "lights" ||
+                                  (develops_in_tiles && named("tiles") && pass.name == "tone"));
     renderer_->draw(alone, view_, list_, time_s_);
     glFinish();
 }

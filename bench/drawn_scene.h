@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -32,9 +33,9 @@ class DrawnScene
     void prepare();
     /// Every pass of the frame plan, until the picture is there.
     void draw();
-    /// One pass of the frame plan alone, over what the last draw() left, until it is there. Tiles develop the
-    /// picture too; tone alone is then nothing.
-    void draw_pass(std::string_view name);
+    /// Some passes of the frame plan alone, over what the last draw() left, until it is there. Where tiles
+    /// develop the picture too, tone alone is nothing.
+    void draw_passes(std::initializer_list<std::string_view> names);
     /// The picture in 8 bit, on the host.
     image::Image8 display() const { return renderer_->read_display(); }
 

@@ -49,9 +49,10 @@ struct SplatPicture
     int width_px = 0, height_px = 0;
     const float* depth = nullptr;   ///< 0 at the far plane, 1 at the near plane
     std::uint16_t* rgba = nullptr;  ///< half floats
-    const std::uint8_t* tone =
-        nullptr;  ///< display level of each half float that is not negative; null: no tone curve
-    std::uint8_t* display = nullptr;  ///< 8-bit RGBA, written if there is a tone curve
+    /// Display level of each half float that is not negative, in 1/256; null: no tone curve.
+    const std::uint16_t* tone = nullptr;
+    const std::uint8_t* noise = nullptr;  ///< by pixel, added before the level is cut to 8 bits; with tone
+    std::uint8_t* display = nullptr;      ///< 8-bit RGBA, written if there is a tone curve
 };
 
 /// Blends flakes into a picture in memory.

@@ -86,11 +86,14 @@ SPINDRIFT_HD void develop_row(const TilePlace& place, int row)
 {
     const std::uint16_t* rgba = place.picture.rgba + place.offset(row) * 4;
     std::uint8_t* out = place.picture.display + place.offset(row) * 4;
-    const std::uint8_t* tone = place.picture.tone;
+    const std::uint16_t* tone = place.picture.tone;
+    const std::uint8_t* noise = place.picture.noise + place.offset(row);
+    const auto level = [&](std::uint16_t half, std::uint32_t dither)
+    { return (tone[half & 0x7FFFU] + dither) >> 8; };
     for (int x = 0; x < place.columns; ++x)
     {
-        const std::uint32_t red = tone[rgba[4 * x] & 0x7FFFU], green = tone[rgba[4 * x + 1] & 0x7FFFU],
-                            blue = tone[rgba[4 * x + 2] & 0x7FFFU];
+        const std::uint32_t red = level(rgba[4 * x], noise[x]), green = level(rgba[4 * x + 1], noise[x]),
+                            blue = level(rgba[4 * x + 2], noise[x]);
         const std::uint32_t pixel = red | green << 8 | blue << 16 | 0xFF000000U;
         __builtin_memcpy(out + 4 * x, &pixel, 4);
     }

@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "gl/active_lights.h"
+#include "gl/bloom_shape.h"
+#include "gl/pass_cost.h"
 
 namespace spindrift::gl
 {
@@ -50,12 +53,12 @@ struct Facts
 
 PlannedPass runs(std::string name, std::string reason, std::string reads, std::string writes)
 {
-    return {std::move(name), true, std::move(reason), std::move(reads), std::move(writes)};
+    return {std::move(name), true, std::move(reason), std::move(reads), std::move(writes), {}};
 }
 
 PlannedPass left_out(std::string name, std::string reason)
 {
-    return {std::move(name), false, std::move(reason), "", ""};
+    return {std::move(name), false, std::move(reason), "", "", {}};
 }
 
 PlannedPass plan_cull(const Facts& facts)
@@ -179,13 +182,116 @@ PlannedPass plan_tiles(const Facts& facts)
         "flakes, draw list, lights, depth, picture", "picture");
 }
 
-PlannedPass plan_tone(const Facts& facts)
+PlannedPass plan_exposure(const Facts& facts)
 {
-    const bool in_tiles = facts.has_flakes && facts.in_tiles();
+    const scene::RenderSettings& render = facts.scene.render;
+    if (!render.auto_exposure)
+        return left_out("exposure", fmt::format("the scene sets it: {:g}", render.exposure));
+    if (facts.last.exposed)
+        return left_out("exposure", "that of this moment is known: both eyes of a pair have the same");
+    return runs("exposure",
+                fmt::format("log-average as {:g}, adapting in {:g} s", render.grey, render.adaptation_s),
+                "picture, exposure", "exposure");
+}
+
+/// No channel of the picture is above this, exposed; infinite where that is not known. Without lamps a
+/// surface or flake gives back at most the ambient light, and over-blending takes no more than the larger of
+/// two.
+double brightest_possible(const Facts& facts)
+{
+    const scene::Scene& scene = facts.scene;
+    const bool sums_up = scene.render.blending == Blending::additive && facts.has_flakes;
+    if (!facts.lights.lamps.empty() || sums_up || scene.render.auto_exposure)
+        return std::numeric_limits<double>::infinity();
+    double brightest = 0;
+    for (const scene::Colour& c : {scene.sky.zenith, scene.sky.horizon, scene.sky.ambient})
+        brightest = std::max({brightest, double{c.r}, double{c.g}, double{c.b}});
+    const double surface = std::max({scene.sky.ambient.r, scene.sky.ambient.g, scene.sky.ambient.b});
+    const double emission = facts.has_solids ? facts.last.brightest_emission : 0;
+    constexpr double kRounding = 1.001;  // of half floats, which blending may add up
+    return kRounding * scene.render.exposure * std::max(brightest, surface + emission);
+}
+
+std::string bloom_reason(const scene::BloomSettings& bloom, const BloomShape& shape)
+{
+    std::string how;
+    switch (bloom.method)
+    {
+        case scene::BloomMethod::gaussian:
+            how = fmt::format("exact Gaussian of {} taps an axis", 2 * shape.gauss_radius + 1);
+            break;
+        case scene::BloomMethod::reduced:
+            how = fmt::format("Gaussian of {} taps an axis at 1/{} of the resolution",
+                              2 * shape.gauss_radius + 1, shape.scale);
+            break;
+        case scene::BloomMethod::pyramid:
+            how = fmt::format("13 taps down, tent up, {} levels", shape.levels);
+            break;
+        case scene::BloomMethod::dual:
+            how = fmt::format("dual filter, {} levels", shape.levels);
+            break;
+        case scene::BloomMethod::legacy:
+            how = fmt::format("box of {} taps an axis", 2 * shape.gauss_radius + 1);
+            break;
+    }
+    return fmt::format(
+        "spreads {:g} of what is above {:g}: {}, sigma {:.3g} px; nothing more than the first step "
+        "where that finds nothing",
+        bloom.weight, bloom.threshold, how, shape.sigma_px);
+}
+
+PlannedPass plan_bloom(const Facts& facts, const View& view)
+{
+    const scene::BloomSettings& bloom = facts.scene.bloom;
+    if (bloom.weight == 0) return left_out("bloom", "its weight is 0");
+    const double onset = bloom.threshold * (1 - bloom.knee);
+    const double brightest = brightest_possible(facts);
+    if (brightest <= onset)
+        return left_out("bloom",
+                        fmt::format("without lamps nothing can be above {:.3g}, and it sets in at {:.3g}",
+                                    brightest, onset));
+    return runs("bloom", bloom_reason(bloom, bloom_shape(bloom, view.height_px)), "picture, exposure",
+                "spread light");
+}
+
+std::string_view curve_name(ToneCurve curve)
+{
+    switch (curve)
+    {
+        case ToneCurve::linear:
+            return "clamp";
+        case ToneCurve::reinhard:
+            return "extended Reinhard";
+        case ToneCurve::aces:
+            return "ACES";
+        case ToneCurve::agx:
+            return "AgX";
+        case ToneCurve::neutral:
+            return "PBR Neutral";
+        case ToneCurve::calibrated:
+            return "calibrated";
+        case ToneCurve::legacy:
+            return "legacy gain";
+    }
+    return "";
+}
+
+/// Tiles can be developed as soon as they are blended where each channel of each pixel goes by itself.
+bool tone_in_tiles(const Facts& facts, bool blooms)
+{
+    const ToneCurve curve = facts.scene.display.tone;
+    const bool by_channel =
+        curve == ToneCurve::linear || curve == ToneCurve::calibrated || curve == ToneCurve::legacy;
+    return facts.has_flakes && facts.in_tiles() && by_channel && !blooms && !facts.scene.render.auto_exposure;
+}
+
+PlannedPass plan_tone(const Facts& facts, bool blooms, bool in_tiles)
+{
     return runs("tone",
-                fmt::format("exposure {:g}, clamp, sRGB{}", facts.scene.render.exposure,
-                            in_tiles ? ", in the tiles: nothing comes between" : ""),
-                "picture", "display");
+                fmt::format("{}, sRGB{}{}", curve_name(facts.scene.display.tone),
+                            facts.scene.display.dither ? ", dither" : "",
+                            in_tiles ? "; in the tiles: nothing comes between" : ""),
+                blooms ? "picture, exposure, spread light" : "picture, exposure", "display");
 }
 
 }  // namespace
@@ -209,22 +315,43 @@ FramePlan plan_frame(const scene::Scene& scene, const View& view, const FrameSta
     plan.passes.push_back(plan_fade(facts));
     plan.passes.push_back(plan_flakes(facts));
     plan.passes.push_back(plan_tiles(facts));
-    plan.passes.push_back(plan_tone(facts));
+    plan.passes.push_back(plan_exposure(facts));
+    plan.passes.push_back(plan_bloom(facts, view));
+    const bool blooms = plan.passes.back().runs;
+    plan.tone_in_tiles = tone_in_tiles(facts, blooms);
+    plan.passes.push_back(plan_tone(facts, blooms, plan.tone_in_tiles));
+    for (PlannedPass& pass : plan.passes)
+        if (pass.runs) pass.cost = pass_cost(pass.name, scene, view, last);
     return plan;
 }
+
+namespace
+{
+
+std::string cost_text(const PassCost& cost)
+{
+    return fmt::format("about {:.3g} MB, {:.3g} million texels or flakes", cost.megabytes,
+                       cost.million_elements);
+}
+
+}  // namespace
 
 std::string to_text(const FramePlan& plan)
 {
     std::size_t widest = 0;
     for (const PlannedPass& pass : plan.passes) widest = std::max(widest, pass.name.size());
     std::string text;
+    PassCost total;
     for (const PlannedPass& pass : plan.passes)
     {
         text += fmt::format("{} {:<{}}  {}\n", pass.runs ? "->" : " -", pass.name, widest, pass.reason);
         if (!pass.runs) continue;
         text += fmt::format("   {:<{}}  reads {}; writes {}\n", "", widest, pass.reads, pass.writes);
+        total.megabytes += pass.cost.megabytes;
+        total.million_elements += pass.cost.million_elements;
+        if (pass.cost.megabytes > 0) text += fmt::format("   {:<{}}  {}\n", "", widest, cost_text(pass.cost));
     }
-    return text;
+    return text + fmt::format("In all {}; what flakes cover comes on top.\n", cost_text(total));
 }
 
 }  // namespace spindrift::gl

@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/error.h"
 #include "gl/active_lights.h"
+#include "gl/bloom_pass.h"
 #include "gl/crystal_texture.h"
+#include "gl/exposure_pass.h"
 #include "gl/flake_look.h"
 #include "gl/flake_pass.h"
 #include "gl/frame_constants.h"
@@ -18,6 +21,7 @@
 #include "gl/picture.h"
 #include "gl/scene_pass.h"
 #include "gl/tile_pass.h"
+#include "gl/tone_pass.h"
 #include "scene/crystals.h"
 
 namespace spindrift::gl
@@ -47,8 +51,12 @@ struct Renderer::Impl
     Texture mask_texture;
     Picture picture;
     ScenePass scene_pass;
-    FullScreenPass sky, tone, depth_tiles;
+    FullScreenPass sky, depth_tiles;
     FlakePass flakes;
+    ExposurePass exposure;
+    std::optional<BloomPass> bloom;  ///< made when a plan first asks for it
+    TonePass tone;
+    std::optional<TonePass> low_range;  ///< made when it is first asked for
     TilePass tiles;
     Splatter* splatter;
     Buffer frame_block;
@@ -68,10 +76,11 @@ struct Renderer::Impl
           picture(width, height),
           scene_pass(s, geometry),
           sky("sky.vert", "sky.frag"),
-          tone("tone.vert", "tone.frag"),
-          depth_tiles("tone.vert", "depth_tiles.frag"),
+          depth_tiles("full_screen.vert", "depth_tiles.frag"),
           flakes(s.render, static_cast<double>(w.snow.weight), buffers),
-          tiles(s.render, w, buffers),
+          exposure(s.render, width, height),
+          tone(s),
+          tiles(s, w, buffers),
           splatter(blender),
           frame_block(make_buffer(sizeof(FrameConstants), nullptr, GL_DYNAMIC_STORAGE_BIT)),
           fenced(buffers.access() == FlakeBuffers::Access::mapped)
@@ -89,8 +98,8 @@ struct Renderer::Impl
     void draw_solid(const FramePlan& plan, const View& view, std::size_t lights, double time_s);
     void draw_flakes(const FramePlan& plan, const View& view, const DrawList& list, std::size_t lights);
     void prepare_depth();
+    void develop(const FramePlan& plan, double time_s);
     void draw_tiles(const FramePlan& plan, const TilePass::Frame& frame);
-    void draw_tone(const FramePlan& plan);
 
     template <class Draw>
     void timed(const char* name, const Draw& draw)
@@ -131,7 +140,7 @@ FrameConstants Renderer::Impl::constants(const View& view, std::size_t lights, d
     c.up_tan = vec4(view.up, tan_y);
     c.forward_near = vec4(view.forward, view.near_m);
     c.ambient_far = vec4(scene.sky.ambient, view.far_m);
-    c.zenith_exposure = vec4(scene.sky.zenith, static_cast<float>(scene.render.exposure));
+    c.zenith = vec4(scene.sky.zenith, 0);
     c.horizon_focal = vec4(scene.sky.horizon, height / (2 * tan_y));
     c.look = {mean_melted_mm(snow), scale, static_cast<float>(scene.render.flake_opacity),
               snow.weight / (scale * scale)};
@@ -198,23 +207,25 @@ void Renderer::Impl::draw_tiles(const FramePlan& plan, const TilePass::Frame& fr
     timed("tiles",
           [&]
           {
-              if (plan.runs("tone"))
+              if (plan.runs("tone") && plan.tone_in_tiles)
                   tiles.blend_and_develop(*splatter, frame, picture);
               else
                   tiles.blend(*splatter, frame, picture);
           });
 }
 
-void Renderer::Impl::draw_tone(const FramePlan& plan)
+void Renderer::Impl::develop(const FramePlan& plan, double time_s)
 {
+    const GLuint linear = picture.linear.name();
+    if (plan.runs("exposure")) timed("exposure", [&] { exposure.draw(linear, time_s); });
+    exposure.bind();
+    const bool blooms = plan.runs("bloom");
+    if (blooms && !bloom) bloom.emplace(scene.bloom, picture.width, picture.height);
+    if (blooms) timed("bloom", [&] { bloom->draw(linear); });
     if (!plan.runs("tone")) return;
-    glBindFramebuffer(GL_FRAMEBUFFER, picture.encode_target.name());
+    glBindFramebuffer(GL_FRAMEBUFFER, picture.display_target.name());
     glViewport(0, 0, picture.width, picture.height);
-    glDisable(GL_DEPTH_TEST);
-    glEnable(GL_FRAMEBUFFER_SRGB);
-    glBindTextureUnit(0, picture.linear.name());
-    timed("tone", [&] { tone.draw(); });
-    glDisable(GL_FRAMEBUFFER_SRGB);
+    timed("tone", [&] { tone.draw(linear, blooms ? &*bloom : nullptr); });
 }
 
 Renderer::Renderer(const scene::Scene& scene, const scene::Geometry& geometry, const World& world,
@@ -241,13 +252,13 @@ void Renderer::draw(const FramePlan& plan, const View& view, const DrawList& fla
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     m.draw_solid(plan, view, lights.size(), time_s);
     m.draw_flakes(plan, view, flakes, lights.size());
-    if (plan.runs("tiles"))
+    const bool in_tiles = plan.runs("tiles");
+    if (in_tiles)
     {
         const scene::Colour& ambient = m.scene.sky.ambient;
         m.draw_tiles(plan, {view, flakes, lights, {ambient.r, ambient.g, ambient.b}, time_s});
     }
-    else
-        m.draw_tone(plan);
+    if (!in_tiles || !plan.tone_in_tiles) m.develop(plan, time_s);
 }
 
 void Renderer::wait_for_flakes() const
@@ -262,11 +273,21 @@ void Renderer::wait_for_flakes() const
 
 void Renderer::resize(int width_px, int height_px)
 {
-    if (width_px != impl_->picture.width || height_px != impl_->picture.height)
-    {
-        impl_->tiles.discard();
-        impl_->picture = Picture(width_px, height_px);
-    }
+    if (width_px == impl_->picture.width && height_px == impl_->picture.height) return;
+    impl_->tiles.discard();
+    impl_->picture = Picture(width_px, height_px);
+    impl_->exposure.resize(width_px, height_px);
+    impl_->bloom.reset();
+}
+
+double Renderer::exposure() const
+{
+    return impl_->exposure.exposure();
+}
+
+bool Renderer::found_bright() const
+{
+    return impl_->bloom && impl_->bloom->found_bright();
 }
 
 image::Image Renderer::read_linear() const
@@ -297,6 +318,22 @@ image::Image8 Renderer::read_display() const
         for (std::size_t x = 0; x < columns; ++x)
             std::copy_n(&pixels[((rows - 1 - y) * columns + x) * 4], 3, &image.rgb[(y * columns + x) * 3]);
     return image;
+}
+
+void Renderer::develop_low_range()
+{
+    Impl& m = *impl_;
+    m.tiles.bring_back(m.picture);
+    if (!m.low_range)
+    {
+        scene::Scene plain = m.scene;
+        plain.display.tone = ToneCurve::linear;
+        m.low_range.emplace(plain);
+    }
+    m.exposure.bind();
+    glBindFramebuffer(GL_FRAMEBUFFER, m.picture.display_target.name());
+    glViewport(0, 0, m.picture.width, m.picture.height);
+    m.low_range->draw(m.picture.linear.name(), nullptr);
 }
 
 void Renderer::present(int framebuffer_width, int framebuffer_height)

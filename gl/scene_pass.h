@@ -41,7 +41,7 @@ class ScenePass
     Vec3f offset_of(const Body& body, double time_s) const;
     Body make_body(const scene::Scene& scene, const scene::Mesh& mesh) const;
 
-    LitProgram program_;
+    LitProgram matt_, shiny_;
     std::vector<Body> bodies_;
     scene::DomainSettings domain_;
 };

@@ -5,8 +5,8 @@
 #include <glm/gtc/packing.hpp>
 
 #include "gl/flake_look.h"
-#include "image/write.h"
 #include "scene/crystals.h"
+#include "scene/development.h"
 
 namespace spindrift::gl
 {
@@ -33,28 +33,50 @@ std::vector<std::uint8_t> gather_texels(const std::vector<scene::CrystalMask>& m
     return texels;
 }
 
-/// Display level of every half float from +0 to the last NaN.
-std::vector<std::uint8_t> tone_table(double exposure)
+/// Display level of every half float from +0 to the last NaN, in 1/256.
+std::vector<std::uint16_t> tone_table(const scene::Scene& scene)
 {
-    std::vector<std::uint8_t> table(0x8000);
+    const Tone<double> tone = scene::tone_of(scene);
+    std::vector<std::uint16_t> table(0x8000);
     for (std::size_t half = 0; half < table.size(); ++half)
     {
-        const float light =
-            static_cast<float>(exposure) * glm::unpackHalf1x16(static_cast<glm::uint16>(half));
-        table[half] = static_cast<std::uint8_t>(std::lround(image::srgb_encode(light) * 255.0F));
+        const double light = glm::unpackHalf1x16(static_cast<glm::uint16>(half));
+        const double exposed = scene.render.exposure * contained(Vec3d{light, light, light}).x;
+        const double shown = srgb_encoded(tone_mapped(Vec3d{exposed, exposed, exposed}, tone).x);
+        table[half] = static_cast<std::uint16_t>(std::lround(shown * 255 * 256));
     }
     return table;
 }
 
+/// What is added to each pixel's levels before they are cut, in 1/256: rounding, or the noise of tone.frag.
+std::vector<std::uint8_t> level_noise(const Picture& picture, bool dither)
+{
+    std::vector<std::uint8_t> noise(
+        static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height), 128);
+    if (!dither) return noise;
+    const auto fraction = [](float x) { return x - std::floor(x); };
+    std::size_t i = 0;
+    for (int y = 0; y < picture.height; ++y)
+        for (int x = 0; x < picture.width; ++x)
+        {
+            const float along =
+                0.06711056F * (static_cast<float>(x) + 0.5F) + 0.00583715F * (static_cast<float>(y) + 0.5F);
+            noise[i++] = static_cast<std::uint8_t>(256 * fraction(52.9829189F * fraction(along)));
+        }
+    return noise;
+}
+
 }  // namespace
 
-TilePass::TilePass(const scene::RenderSettings& settings, const World& world, const FlakeBuffers& buffers)
-    : settings_(settings),
+TilePass::TilePass(const scene::Scene& scene, const World& world, const FlakeBuffers& buffers)
+    : settings_(scene.render),
       sizes_(world.snow, world.seed),
-      real_flakes_(world.snow.weight / static_cast<float>(settings.flake_scale * settings.flake_scale)),
+      real_flakes_(world.snow.weight /
+                   static_cast<float>(scene.render.flake_scale * scene.render.flake_scale)),
       buffers_(buffers),
       texels_(gather_texels(scene::crystal_masks(), crystals_)),
-      tone_(tone_table(settings.exposure))
+      dither_(scene.display.dither),
+      tone_(tone_table(scene))
 {
 }
 
@@ -91,7 +113,7 @@ SplatPicture TilePass::fetch(const Picture& picture)
                       depth_.data());
     glGetTextureImage(picture.linear.name(), 0, GL_RGBA, GL_HALF_FLOAT, static_cast<GLsizei>(pixels * 8),
                       rgba_.data());
-    return {picture.width, picture.height, depth_.data(), rgba_.data(), nullptr, nullptr};
+    return {picture.width, picture.height, depth_.data(), rgba_.data(), nullptr, nullptr, nullptr};
 }
 
 void TilePass::blend(Splatter& splatter, const Frame& frame, const Picture& picture)
@@ -104,8 +126,12 @@ void TilePass::blend(Splatter& splatter, const Frame& frame, const Picture& pict
 void TilePass::blend_and_develop(Splatter& splatter, const Frame& frame, const Picture& picture)
 {
     SplatPicture target = fetch(picture);
+    if (display_.size() != rgba_.size() || noise_width_ != picture.width)
+        noise_ = level_noise(picture, dither_);
+    noise_width_ = picture.width;
     display_.resize(rgba_.size());
     target.tone = tone_.data();
+    target.noise = noise_.data();
     target.display = display_.data();
     splatter.splat(job(frame), target);
     glTextureSubImage2D(picture.display.name(), 0, 0, 0, picture.width, picture.height, GL_RGBA,

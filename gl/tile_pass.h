@@ -19,7 +19,7 @@ namespace spindrift::gl
 class TilePass
 {
   public:
-    TilePass(const scene::RenderSettings& settings, const World& world, const FlakeBuffers& buffers);
+    TilePass(const scene::Scene& scene, const World& world, const FlakeBuffers& buffers);
     TilePass(const TilePass&) = delete;
     TilePass& operator=(const TilePass&) = delete;
 
@@ -51,7 +51,10 @@ class TilePass
     const FlakeBuffers& buffers_;
     CrystalTexels crystals_;  ///< into texels_
     std::vector<std::uint8_t> texels_;
-    std::vector<std::uint8_t> tone_;
+    bool dither_;
+    std::vector<std::uint16_t> tone_;
+    std::vector<std::uint8_t> noise_;  ///< by pixel of the picture that display_ is for
+    int noise_width_ = 0;
     std::vector<float> depth_;
     std::vector<std::uint16_t> rgba_;
     std::vector<std::uint8_t> display_;

@@ -53,7 +53,9 @@ Canvas empty_canvas(const Frame& frame, int x, int y)
     Hit hit;
     const bool met = frame.solids.first_hit(eye, direction, view.near_m, view.far_m, hit);
     if (!met) return {sky_radiance(frame.scene.sky, direction), std::numeric_limits<double>::infinity()};
-    return {surface_radiance(frame.lights, frame.scene.sky, hit, eye + direction * hit.along), hit.along};
+    const Vec3d to_eye = direction * (-1 / std::sqrt(dot(direction, direction)));
+    return {surface_radiance(frame.lights, frame.scene.sky, hit, eye + direction * hit.along, to_eye),
+            hit.along};
 }
 
 void blend(scene::Blending blending, const Dab& dab, double z, Canvas& canvas)

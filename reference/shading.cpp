@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/surface.h"
 #include "scene/lamp_kind.h"
 #include "scene/make_world.h"
 
@@ -89,15 +90,26 @@ FlakeLight flake_light(const Lights& lights, const scene::SkySettings& sky, cons
     return out;
 }
 
-Rgb surface_radiance(const Lights& lights, const scene::SkySettings& sky, const Hit& hit, const Vec3d& place)
+Rgb surface_radiance(const Lights& lights, const scene::SkySettings& sky, const Hit& hit, const Vec3d& place,
+                     const Vec3d& to_eye)
 {
-    Rgb sum = rgb(sky.ambient) * (0.75 + 0.25 * hit.normal.z);
+    const scene::Material& material = hit.material;
+    const Vec3d albedo = rgb(material.albedo);
+    const bool shiny = material.roughness < 1;
+    const Gloss<double> gloss = shiny
+                                    ? gloss_of(albedo, double{material.roughness}, double{material.metallic})
+                                    : Gloss<double>{{}, albedo, 0};
+    Rgb sum = product(albedo, rgb(sky.ambient)) * (0.75 + 0.25 * hit.normal.z) + rgb(material.emission);
     for (const Lamp<double>& lamp : lights)
     {
         const LampLight<double> from = lamp_light(lamp, place);
-        sum = sum + from.irradiance * (std::max(dot(hit.normal, from.towards), 0.0) / std::numbers::pi);
+        const double facing = std::max(dot(hit.normal, from.towards), 0.0) / std::numbers::pi;
+        sum = sum + product(gloss.matt, from.irradiance) * facing;
+        if (!shiny) continue;
+        const double lobe = highlight(gloss.exponent, hit.normal, from.towards, to_eye);
+        sum = sum + product(gloss.mirrored, from.irradiance) * lobe;
     }
-    return product(rgb(hit.material.albedo), sum) + rgb(hit.material.emission);
+    return sum;
 }
 
 }  // namespace spindrift::reference

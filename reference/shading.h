@@ -35,7 +35,8 @@ struct FlakeLight
 FlakeLight flake_light(const Lights& lights, const scene::SkySettings& sky, const View& view,
                        const Vec3d& flake);
 
-/// What a surface that is met at a place sends back along the ray.
-Rgb surface_radiance(const Lights& lights, const scene::SkySettings& sky, const Hit& hit, const Vec3d& place);
+/// What a surface that is met at a place sends back along the ray; `to_eye` is a unit vector.
+Rgb surface_radiance(const Lights& lights, const scene::SkySettings& sky, const Hit& hit, const Vec3d& place,
+                     const Vec3d& to_eye);
 
 }  // namespace spindrift::reference

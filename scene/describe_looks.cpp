@@ -232,8 +232,7 @@ void describe_render(Section& section, RenderSettings& render)
     section.whole({.name = "sort_passes_per_frame",
                    .about = "steps of bitonic-passes and odd-even-passes; also --sort-passes"},
                   {.min = 1, .max = 4096}, render.sort_passes_per_frame);
-    section.number({.name = "exposure", .about = "factor on all light before the tone curve"},
-                   {.min = 0, .max = 1e6, .above_min = true}, render.exposure);
+    describe_exposure(section, render);
     section.number({.name = "flake_opacity", .about = "at the centre of a flake"}, kShare,
                    render.flake_opacity);
     section.number({.name = "flake_scale",
@@ -253,6 +252,7 @@ void describe_looks(Section& root, Scene& scene)
                  [&](Section& s) { describe_camera(s, scene.camera); });
     root.section({.name = "render", .about = "the pictures"},
                  [&](Section& s) { describe_render(s, scene.render); });
+    describe_development(root, scene);
 }
 
 }  // namespace spindrift::scene

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/tone.h"
 #include "core/vec.h"
 #include "core/world.h"
 
@@ -213,8 +214,40 @@ struct RenderSettings
     int depth_bits = 32;
     int sort_passes_per_frame = 8;  ///< steps of the sorts over frames
     double exposure = 1;
+    bool auto_exposure = false;  ///< `exposure` is then found from the picture
+    double grey = 0.18;          ///< what the log-average of the picture is shown as
+    double adaptation_s = 1;     ///< time constant of the automatic exposure
     double flake_opacity = 0.9;  ///< at the centre of a flake, 0..1
     double flake_scale = 1;      ///< drawn size over real size; light is kept by weight / scale^2
+};
+
+enum class BloomMethod
+{
+    gaussian,  ///< exact: separable, true weights, at full resolution
+    reduced,   ///< the same at an eighth of the resolution, or at a quarter or half for narrow ones
+    pyramid,   ///< 13 taps down, tent up
+    dual,      ///< dual filter
+    legacy,    ///< box of the exact one's taps
+};
+
+/// Light in multiples of white after the exposure.
+struct BloomSettings
+{
+    double weight = 0;  ///< share of the bright part that is spread
+    BloomMethod method = BloomMethod::reduced;
+    double threshold = 1;
+    double knee = 0.5;            ///< share of the threshold
+    double ceiling = 100;         ///< a pixel counts up to here
+    double sigma_px = 128.0 / 3;  ///< in a picture 720 px high; others scale it
+};
+
+struct DisplaySettings
+{
+    ToneCurve tone = ToneCurve::linear;
+    double white = 4;  ///< reinhard: luminance that becomes white; legacy: its largest luminance
+    bool dither = true;
+    double unit_cd_m2 = 0;  ///< luminance that one unit of light stands for; 0: not calibrated
+    double white_cd_m2 = 0, black_cd_m2 = 0;  ///< of the display
 };
 
 struct Scene
@@ -238,6 +271,8 @@ struct Scene
     CameraSettings camera;
     std::vector<VehicleSettings> vehicles;
     RenderSettings render;
+    BloomSettings bloom;
+    DisplaySettings display;
 };
 
 /// What a command line may change of a scene before it is validated.

@@ -7,7 +7,7 @@ layout(std140, binding = 0) uniform Frame
     vec4 up_tan;            // unit vector; of the vertical one
     vec4 forward_near;      // unit vector; m
     vec4 ambient_far;       // radiance; m
-    vec4 zenith_exposure;   // radiance; factor
+    vec4 zenith;            // radiance, 0
     vec4 horizon_focal;     // radiance; px
     vec4 look;              // mean melted diameter (mm), flake_scale, flake_opacity, weight / scale^2
     vec4 sprite;            // largest radius (px), guard band: width and height of the picture over the viewport's, guard (px)

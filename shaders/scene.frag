@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lambert surfaces under ambient light and every active light; both faces are lit.
+// Lambert surfaces under ambient light and every active light; both faces are lit. With SHINY the lobe of core/surface.h on top.
 #define VARYING in
 #include "scene_constants.glsl"
 layout(location = 0) out vec4 colour;
@@ -8,7 +8,12 @@ void main()
 {
     vec3 n = normal * inversesqrt(max(dot(normal, normal), 1e-20));
     if (dot(n, place) > 0.0) n = -n;
-    vec3 sum = ambient * (0.75 + 0.25 * n.z);
+    vec3 around = ambient * (0.75 + 0.25 * n.z);
+    vec3 lit = vec3(0.0);
+#ifdef SHINY
+    vec3 to_eye = -place * inversesqrt(max(dot(place, place), 1e-20));
+    vec3 mirrored = vec3(0.0);
+#endif
     for (uint i = 0u; i < kLightCount; ++i)
     {
 #ifdef FLAT_LIGHTS
@@ -18,7 +23,17 @@ void main()
 #endif
         vec3 to_light;
         vec3 e = irradiance(lamp, place, to_light);
-        sum += e * (max(dot(n, to_light), 0.0) * 0.318309886);
+        float facing = max(dot(n, to_light), 0.0);
+        lit += e * (facing * 0.318309886);
+#ifdef SHINY
+        vec3 between = to_light + to_eye;
+        float halfway = max(dot(n, between), 0.0) * inversesqrt(max(dot(between, between), 1e-12));
+        mirrored += e * (facing * pow(halfway, gloss.w));
+#endif
     }
-    colour = vec4(min(albedo * sum + emission, 6e4), 1.0);
+#ifdef SHINY
+    colour = vec4(min(albedo * around + matt * lit + gloss.rgb * mirrored + emission, 6e4), 1.0);
+#else
+    colour = vec4(min(albedo * (around + lit) + emission, 6e4), 1.0);
+#endif
 }

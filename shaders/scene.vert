@@ -6,6 +6,10 @@ layout(location = 1) in vec3 normal_in;
 layout(location = 0) uniform vec3 offset_m;  // of the vehicle that carries the mesh
 layout(location = 1) uniform vec3 material_albedo;
 layout(location = 2) uniform vec3 material_emission;
+#ifdef SHINY
+layout(location = 3) uniform vec4 material_gloss;
+layout(location = 4) uniform vec3 material_matt;
+#endif
 
 void main()
 {
@@ -15,6 +19,10 @@ void main()
     albedo = material_albedo;
     emission = material_emission;
     ambient = ambient_far.rgb;
+#ifdef SHINY
+    gloss = material_gloss;
+    matt = material_matt;
+#endif
 #ifdef FLAT_LIGHTS
     for (uint i = 0u; i < kLightCount; ++i) lamps[i] = seen_from(lights[i], eye_time.xyz);
 #endif

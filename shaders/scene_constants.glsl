@@ -11,6 +11,10 @@ VARYING vec3 normal;
 flat VARYING vec3 albedo;
 flat VARYING vec3 emission;
 flat VARYING vec3 ambient;
+#ifdef SHINY
+flat VARYING vec4 gloss;  // share that is mirrored times the height of the lobe, exponent
+flat VARYING vec3 matt;   // albedo of the rest
+#endif
 #ifdef FLAT_LIGHTS
 flat VARYING Light lamps[LIGHTS];  // their places from the eye
 #endif

@@ -9,6 +9,7 @@
 #include "gl/context.h"
 #include "gl/frame_plan.h"
 #include "gl/renderer.h"
+#include "reference/development.h"
 #include "reference/reference.h"
 
 namespace spindrift::golden
@@ -23,6 +24,7 @@ Shown show(const Showing& showing)
     scene::Scene scene =
         scene::read_scene(SPINDRIFT_SOURCE_DIR "/scenes/" + showing.name + ".toml", overrides);
     scene.render.flake_path = showing.path;
+    scene.display.dither = false;
     const scene::Geometry geometry = scene::read_geometry(scene);
     const World world = scene::make_world(scene, geometry, cpu::project_wind());
     const gl::FlakeBuffers buffers(world.capacity);
@@ -39,13 +41,15 @@ Shown show(const Showing& showing)
     gl::Renderer renderer(scene, geometry, world, buffers, view.width_px, view.height_px, splatter.get());
     renderer.draw(gl::plan_frame(scene, view, stats, showing.time_s, geometry.model_lights), view, list,
                   showing.time_s);
-    return {renderer.read_linear(),
-            renderer.read_display(),
-            reference::render(scene, geometry, world, buffers.flakes(), backend->slots_used(), view,
-                              showing.time_s),
-            scene.render.exposure,
-            list.count,
-            gl::Context::debug_errors()};
+    Shown shown{renderer.read_linear(),
+                renderer.read_display(),
+                reference::render(scene, geometry, world, buffers.flakes(), backend->slots_used(), view,
+                                  showing.time_s),
+                {},
+                list.count,
+                gl::Context::debug_errors()};
+    shown.developed = reference::develop(shown.reference, scene);
+    return shown;
 }
 
 }  // namespace spindrift::golden
