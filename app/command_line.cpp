@@ -125,6 +125,13 @@ void add_scene_options(CLI::App& command, scene::SceneOverrides& scene)
         ->type_name("F")
         ->group(group);
     command.add_option("--sort", scene.sort, sort_help())->type_name("S")->group(group);
+    command
+        .add_option(
+            "--flake-path", scene.flake_path,
+            "How blended flakes are drawn: raster, tiles (by the processor), or auto: tiles on software GL")
+        ->type_name("P")
+        ->check(CLI::IsMember({"auto", "raster", "tiles"}))
+        ->group(group);
 }
 
 void add_run(CLI::App& app, RunOptions& options)

@@ -59,7 +59,9 @@ struct Simulation::Impl
             pictures ? app::make_shared_memory(world.capacity) : app::make_host_memory(world.capacity);
         const cpu::CpuOptions cpu{options.threads, app::parse_simd(options.simd)};
         simulator = std::make_unique<app::Simulator>(world, std::move(memory), cpu, log);
-        if (pictures) drawer = std::make_unique<app::FrameDrawer>(scene, geometry, world, *simulator, log);
+        if (pictures)
+            drawer =
+                std::make_unique<app::FrameDrawer>(scene, geometry, world, *simulator, context->info(), log);
     }
 
     Backend& backend() const { return simulator->backend(); }

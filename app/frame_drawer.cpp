@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/frame_drawer.h"
 
+#include "cpu/tile_splatter.h"
+
 namespace spindrift::app
 {
 
@@ -22,13 +24,15 @@ bool same(const View& a, const View& b)
 }  // namespace
 
 FrameDrawer::FrameDrawer(const scene::Scene& scene, const scene::Geometry& geometry, const World& world,
-                         Simulator& simulator, StageLog& log)
+                         Simulator& simulator, const gl::ContextInfo& gl, StageLog& log)
     : scene_(scene),
       geometry_(geometry),
       simulator_(simulator),
       log_(log),
+      gl_(gl.software ? gl::GlKind::software : gl::GlKind::hardware),
+      splatter_(cpu::make_tile_splatter(simulator.options())),
       renderer_(scene, geometry, world, *simulator.memory().drawn_from(), scene.render.width_px,
-                scene.render.height_px)
+                scene.render.height_px, splatter_.get())
 {
 }
 
@@ -46,7 +50,7 @@ gl::FramePlan FrameDrawer::plan(const View& view, double time_s) const
     stats.flakes_moved = stale_ || backend.step_number() != last_step_;
     stats.camera_moved = !last_view_ || !same(view, *last_view_);
     stats.drawn = list_.count;
-    return gl::plan_frame(scene_, view, stats, time_s, geometry_.model_lights);
+    return gl::plan_frame(scene_, view, stats, time_s, geometry_.model_lights, gl_);
 }
 
 void FrameDrawer::draw(const View& view, double time_s)

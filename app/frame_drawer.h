@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "app/plan_log.h"
 #include "app/simulator.h"
 #include "app/stage_log.h"
+#include "core/splatter.h"
+#include "gl/context.h"
 #include "gl/frame_plan.h"
 #include "gl/renderer.h"
 
@@ -20,7 +23,7 @@ class FrameDrawer
   public:
     /// All arguments must outlive it. The simulator's memory must be one that GL draws from.
     FrameDrawer(const scene::Scene& scene, const scene::Geometry& geometry, const World& world,
-                Simulator& simulator, StageLog& log);
+                Simulator& simulator, const gl::ContextInfo& gl, StageLog& log);
 
     void draw(const View& view, double time_s);
 
@@ -40,6 +43,8 @@ class FrameDrawer
     const scene::Geometry& geometry_;
     Simulator& simulator_;
     StageLog& log_;
+    gl::GlKind gl_;
+    std::unique_ptr<Splatter> splatter_;
     gl::Renderer renderer_;
     PlanLog plans_;
     bool stale_ = true;  ///< the draw list must be made anew whatever moved

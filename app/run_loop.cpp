@@ -124,7 +124,8 @@ void draw_headless(RunState& run, Outputs& outputs)
     run.report.gl = context->info();
     const auto simulator = start_simulator(run, make_drawn_memory(run));
     const FrameClock clock = make_clock(run.input, simulator->backend().step_number());
-    FrameDrawer drawer(run.input.scene, run.input.geometry, run.input.world, *simulator, run.log);
+    FrameDrawer drawer(run.input.scene, run.input.geometry, run.input.world, *simulator, context->info(),
+                       run.log);
 
     warm_up(run, *simulator, clock.steps_before(0));
     draw_frames(run, *simulator, drawer, clock, outputs);

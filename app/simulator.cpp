@@ -9,6 +9,7 @@ namespace spindrift::app
 Simulator::Simulator(const World& world, std::unique_ptr<FlakeMemory> memory, const cpu::CpuOptions& options,
                      StageLog& log)
     : memory_(std::move(memory)),
+      options_(options),
       backend_(cpu::make_cpu_backend(world, memory_->flakes(), memory_->draw_list(), options)),
       log_(log)
 {

@@ -32,9 +32,11 @@ class Simulator
 
     Backend& backend() { return *backend_; }
     const FlakeMemory& memory() const { return *memory_; }
+    const cpu::CpuOptions& options() const { return options_; }
 
   private:
     std::unique_ptr<FlakeMemory> memory_;
+    cpu::CpuOptions options_;
     std::unique_ptr<Backend> backend_;
     StageLog& log_;
 };

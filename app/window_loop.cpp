@@ -52,7 +52,7 @@ class WindowRun
         : run_(run),
           window_(window),
           simulator_(simulator),
-          drawer_(run.input.scene, run.input.geometry, run.input.world, simulator, run.log),
+          drawer_(run.input.scene, run.input.geometry, run.input.world, simulator, window.info(), run.log),
           anchors_(camera_anchors(run.input)),
           time_s_(make_clock(run.input, simulator.backend().step_number()).start_s)
     {

@@ -27,39 +27,60 @@ struct LitPart
     R from, to;
 };
 
+/// The part of the line away + t way that lies in a spot's cone: u(t) = dot(direction, x) >= 0 and u² >= cos²
+/// |x|².
+template <class R>
+SPINDRIFT_HD LitPart<R> part_in_cone(const Lamp<R>& lamp, const Vec3<R>& away, const Vec3<R>& way)
+{
+    const R zero = number<R>(0), tiny = number<R>(1e-9), endless = infinity<R>();
+    const R along = dot(away, way), cos2 = lamp.cos_outer * lamp.cos_outer;
+    const R u0 = dot(lamp.direction, away), u1 = dot(lamp.direction, way);
+    const R a = u1 * u1 - cos2, b = u0 * u1 - cos2 * along, c = u0 * u0 - cos2 * dot(away, away);
+    const R determinant = b * b - a * c;
+    const auto linear = abs(a) < tiny;  // parallel to the cone's side
+    const auto constant = linear && abs(b) < tiny;
+    const auto misses = constant || (!linear && determinant < zero);  // the cone's surface
+    const R root = sqrt(max(determinant, zero));
+    const R inverse = number<R>(1) / select(linear, number<R>(1), a);
+    const R one = (-b - root) * inverse, other = (root - b) * inverse;
+    const R straight = c / select(constant, number<R>(1), number<R>(-2) * b);
+    const R first = select(linear, straight, min(one, other));
+    const R second = select(linear, straight, max(one, other));
+    // a < 0: enters and leaves one of the two cones that meet in the lamp. Else it runs from one into the
+    // other, and the lamp's own is the one that the way turns to.
+    const auto passes = !linear && a < zero;
+    const auto turns_in = select(linear, b, u1) > zero;
+    const R from = select(passes, first, select(turns_in, second, -endless));
+    const R to = select(passes, second, select(turns_in, endless, first));
+    const auto other_cone = passes && !(u0 + u1 * number<R>(0.5) * (first + second) > zero);
+    const auto inside = u0 > zero && select(constant, c, a) > zero;
+    const auto never =
+        select(misses, select(inside, zero, number<R>(1)), select(other_cone, number<R>(1), zero)) > zero;
+    return {select(never, endless, select(misses, -endless, from)),
+            select(never, -endless, select(misses, endless, to))};
+}
+
 template <class R>
 SPINDRIFT_HD LitPart<R> lit_part(const Lamp<R>& lamp, const Vec3<R>& eye, const Vec3<R>& way, R from, R to)
 {
     const Vec3<R> away = eye - lamp.position_m;
-    const R along = dot(away, way), far2 = dot(away, away);
-    if (is_finite(lamp.range_m))
-    {
-        const R inside = lamp.range_m * lamp.range_m - (far2 - along * along);
-        if (!(inside > R(0))) return {from, from};
-        const R half = sqrt(inside);
-        from = max(from, -along - half);
-        to = min(to, half - along);
-    }
+    const R along = dot(away, way);
+    const R inside = lamp.range_m * lamp.range_m - (dot(away, away) - along * along);
+    const R half = sqrt(max(inside, number<R>(0)));
+    from = max(from, -along - half);
+    to = select(inside > number<R>(0), min(to, half - along), from);
     if (lamp.kind != LampKind::spot) return {from, to};
-    // Inside the cone: u(t) = dot(direction, x) >= 0 and u² >= cos² |x|² with x = away + t way.
-    const R cos2 = lamp.cos_outer * lamp.cos_outer;
-    const R u0 = dot(lamp.direction, away), u1 = dot(lamp.direction, way);
-    const R a = u1 * u1 - cos2, b = u0 * u1 - cos2 * along, c = u0 * u0 - cos2 * far2;
-    const R determinant = b * b - a * c;
-    if (abs(a) < R(1e-9))  // parallel to the cone's side
-    {
-        if (abs(b) < R(1e-9)) return c > R(0) && u0 > R(0) ? LitPart<R>{from, to} : LitPart<R>{from, from};
-        const R at = c / (R(-2) * b);
-        return b > R(0) ? LitPart<R>{max(from, at), to} : LitPart<R>{from, min(to, at)};
-    }
-    if (determinant < R(0)) return a > R(0) && u0 > R(0) ? LitPart<R>{from, to} : LitPart<R>{from, from};
-    const R root = sqrt(determinant);
-    const R first = min((-b - root) / a, (-b + root) / a), second = max((-b - root) / a, (-b + root) / a);
-    if (a < R(0))  // enters and leaves one of the two cones that meet in the lamp
-        return u0 + u1 * R(0.5) * (first + second) > R(0) ? LitPart<R>{max(from, first), min(to, second)}
-                                                          : LitPart<R>{from, from};
-    // runs from one of them into the other: the lamp's own is the one that the way turns to
-    return u1 > R(0) ? LitPart<R>{max(from, second), to} : LitPart<R>{from, min(to, first)};
+    const LitPart<R> cone = part_in_cone(lamp, away, way);
+    return {max(from, cone.from), min(to, cone.to)};
+}
+
+/// Share of a lamp's light that the air lets through to a place; all of a directional lamp's.
+template <class R>
+SPINDRIFT_HD R reaching(const AirLayers<R>& air, const Lamp<R>& lamp, const Vec3<R>& place)
+{
+    if (lamp.kind == LampKind::directional) return number<R>(1);
+    const Vec3<R> way = lamp.position_m - place;
+    return exp(-optical_depth(air, lamp.position_m.z, place.z, sqrt(dot(way, way))));
 }
 
 /// Radiance towards the eye, W/(m2 sr), of a point or spot lamp's light from the part [from, to] of a way.
@@ -67,38 +88,40 @@ SPINDRIFT_HD LitPart<R> lit_part(const Lamp<R>& lamp, const Vec3<R>& eye, const 
 template <class R>
 SPINDRIFT_HD Vec3<R> airlight(const AirPath<R>& path, const Lamp<R>& lamp, const R& from_m, const R& to_m)
 {
-    const Vec3<R> nothing{R(0), R(0), R(0)};
+    const R zero = number<R>(0), one = number<R>(1);
     const LitPart<R> lit = lit_part(lamp, path.eye, path.way, from_m, to_m);
-    if (!(lit.to > lit.from)) return nothing;
+    const auto any_lit = lit.to > lit.from;
+    if (none(any_lit)) return {zero, zero, zero};
     const Vec3<R> to_lamp = lamp.position_m - path.eye;
     const R nearest = dot(to_lamp, path.way);
     const R least2 = dot(to_lamp, to_lamp) - nearest * nearest;
-    const R least = sqrt(max(least2, R(kNearestLight_m * kNearestLight_m)));
-    const R first = atan((lit.from - nearest) / least), last = atan((lit.to - nearest) / least);
-    const R middle = R(0.5) * (first + last), half = R(0.5) * (last - first);
-    R sum(0);
+    const R least = sqrt(max(least2, number<R>(kNearestLight_m * kNearestLight_m)));
+    const R first = atan((select(any_lit, lit.from, zero) - nearest) / least);
+    const R last = atan((select(any_lit, lit.to, zero) - nearest) / least);
+    const R middle = number<R>(0.5) * (first + last), half = number<R>(0.5) * (last - first);
+    R sum = zero;
     for (int k = 0; k < kAirlightPoints; ++k)
     {
-        const R place = R(k < 4 ? -kGauss8Place[k] : kGauss8Place[k - 4]);
+        const double place = k < 4 ? -kGauss8Place[k] : kGauss8Place[k - 4];
         R sine, cosine;
-        sincos_turns((middle + half * place) * R(0.15915494309189533577), sine, cosine);
+        sincos_turns((middle + half * number<R>(place)) * number<R>(0.15915494309189533577), sine, cosine);
         const R at = nearest + least * sine / cosine;
         const R away = least / cosine;
         const R height = path.eye.z + path.way.z * at;
         const R depth = path.of_fog(at) + optical_depth(path.air, lamp.position_m.z, height, away);
-        R share(1);
+        R share = one;
         if (lamp.kind == LampKind::spot)
         {
-            const Vec3<R> from_lamp = (path.way * at - to_lamp) * (R(1) / away);
-            const R width = max(lamp.cos_inner - lamp.cos_outer, R(kNarrowestCone));
-            share = clamp((dot(lamp.direction, from_lamp) - lamp.cos_outer) / width, R(0), R(1));
+            const Vec3<R> from_lamp = (path.way * at - to_lamp) * (one / away);
+            const R width = max(lamp.cos_inner - lamp.cos_outer, number<R>(kNarrowestCone));
+            share = clamp((dot(lamp.direction, from_lamp) - lamp.cos_outer) / width, zero, one);
             share = share * share;
         }
         const R reach = away / lamp.range_m;
-        const R window = max(R(1) - (reach * reach) * (reach * reach), R(0));
+        const R window = max(one - (reach * reach) * (reach * reach), zero);
         // the light goes on from the lamp's side: the cosine to the eye is -sin(theta)
-        sum = sum + R(kGauss8Weight[k < 4 ? k : k - 4]) * share * window * path.fog_at(at) * exp(-depth) *
-                        scattered_share(lamp.phase, -sine);
+        sum = sum + number<R>(kGauss8Weight[k < 4 ? k : k - 4]) * share * window * path.fog_at(at) *
+                        exp(-depth) * scattered_share(lamp.phase, -sine);
     }
     return lamp.intensity * (sum * half / least);
 }
@@ -107,10 +130,11 @@ SPINDRIFT_HD Vec3<R> airlight(const AirPath<R>& path, const Lamp<R>& lamp, const
 template <class R>
 SPINDRIFT_HD Vec3<R> airlight_to(const AirPath<R>& path, const Lamp<R>& lamp, const R& to_m)
 {
+    const R zero = number<R>(0);
     const R in = min(path.enters_m, to_m), out = min(path.leaves_m, to_m);
     Vec3<R> sum = airlight(path, lamp, out, to_m);
-    if (in > R(0)) sum = sum + airlight(path, lamp, R(0), in);
-    if (out > in) sum = sum + airlight(path, lamp, in, out);
+    if (any(in > zero)) sum = sum + airlight(path, lamp, zero, in);
+    if (any(out > in)) sum = sum + airlight(path, lamp, in, out);
     return sum;
 }
 

@@ -60,6 +60,14 @@ struct Phase
     R back_share{0};  ///< double_lobe: share of the light that the second takes, 0 to 1
 };
 
+/// The same with the sign of the angle turned round, as the report prints it (CTS 11-04: the dot product of
+/// eye to particle and light to particle): what goes forward comes back.
+template <class R>
+SPINDRIFT_HD Phase<R> turned_round(const Phase<R>& phase)
+{
+    return {phase.kind, -phase.g, -phase.g_back, phase.back_share};
+}
+
 /// Light scattered per solid angle, 1/sr; mu as above.
 template <class R>
 SPINDRIFT_HD R scattered_share(const Phase<R>& phase, const R& mu)

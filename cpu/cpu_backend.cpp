@@ -3,16 +3,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <optional>
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/info.h>
-#include <tbb/task_arena.h>
 
 #include "core/error.h"
 #include "core/state_hash.h"
 #include "cpu/anchors.h"
+#include "cpu/arena.h"
 #include "cpu/chunks.h"
 #include "cpu/compaction.h"
 #include "cpu/draw_list.h"
@@ -46,20 +43,6 @@ class StageTimer
     std::chrono::steady_clock::time_point start_;
 };
 
-int thread_count(int asked)
-{
-    if (asked < 0) throw Error(fmt::format("threads = {} is negative; use 0 (one per core) or more", asked));
-    return asked == 0 ? tbb::info::default_concurrency() : asked;
-}
-
-/// TBB starts no more threads than there are cores unless told so.
-std::optional<tbb::global_control> more_threads(int threads)
-{
-    if (threads <= tbb::info::default_concurrency()) return std::nullopt;
-    return std::make_optional<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                   static_cast<std::size_t>(threads));
-}
-
 class CpuBackend final : public Backend
 {
   public:
@@ -68,9 +51,7 @@ class CpuBackend final : public Backend
         : world_(world),
           simd_(choose_simd(options.simd)),
           kernels_(kernels(simd_)),
-          threads_(thread_count(options.threads)),
-          more_threads_(more_threads(threads_)),
-          arena_(threads_),
+          arena_(options.threads),
           flakes_(flakes),
           anchors_(world.anchors),
           emission_(world),
@@ -88,7 +69,8 @@ class CpuBackend final : public Backend
 
     std::string name() const override
     {
-        return fmt::format("cpu ({}, {} thread{})", simd_name(simd_), threads_, threads_ == 1 ? "" : "s");
+        return fmt::format("cpu ({}, {} thread{})", simd_name(simd_), arena_.threads(),
+                           arena_.threads() == 1 ? "" : "s");
     }
 
     void step() override
@@ -126,9 +108,7 @@ class CpuBackend final : public Backend
     HeldWorld world_;
     Simd simd_;
     const KernelTable& kernels_;
-    int threads_;
-    std::optional<tbb::global_control> more_threads_;
-    mutable tbb::task_arena arena_;
+    Arena arena_;
     FlakeView flakes_;
     Anchors anchors_;
     Emission emission_;

@@ -13,6 +13,10 @@ namespace
 
 constexpr std::size_t kWidth = NumberTraits<Real>::width;
 
+// The packs' own would hide them from scalars.
+using spindrift::gather;
+using spindrift::gather_bytes;
+
 /// So many flakes ahead of the ones that move, the wind cells round them are called into the second-level
 /// cache: straight into the first they stop up its few miss buffers, which took half as long again
 /// (docs/benchmarking.md, advection).
@@ -136,3 +140,6 @@ std::size_t list_visible(const Frustum& frustum, const FlakeView& flakes, std::s
 }  // namespace
 
 }  // namespace spindrift::cpu
+
+#include "cpu/blend_tile.inl"
+#include "cpu/place_sprites.inl"

@@ -30,6 +30,7 @@ enum Binding : unsigned
 {
     kFrameBlock = 0,
     kFewLights = 1,
+    kAirBlock = 2,
     kXArray = 0,
     kYArray = 1,
     kZArray = 2,

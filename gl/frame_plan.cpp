@@ -4,9 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "core/airlight.h"
+#include "core/visibility.h"
 #include "gl/active_lights.h"
+#include "scene/air.h"
 
 namespace spindrift::gl
 {
@@ -15,6 +19,10 @@ namespace
 {
 
 using scene::Blending;
+
+/// Air that lets more than this share through to the far plane is left out.
+constexpr double kClearEnough = 0.995;
+using scene::FlakePath;
 
 /// Everything that the decisions look at, gathered once.
 struct Facts
@@ -25,16 +33,27 @@ struct Facts
     bool has_flakes;
     bool has_solids;
     bool blended;  // alpha is used
+    GlKind gl;
+    double far_clear;  // least transmittance of the air up to the far plane
 
     Facts(const scene::Scene& s, const View& view, const FrameStats& stats, double time_s,
-          std::span<const scene::Light> model_lights)
+          std::span<const scene::Light> model_lights, GlKind kind)
         : scene(s),
           last(stats),
           lights(active_lights(s, model_lights, view, time_s)),
           has_flakes(stats.counts.alive > 0),
           has_solids(s.ground.kind != scene::GroundKind::none || !s.boxes.empty() || !s.models.empty()),
-          blended(s.render.blending != Blending::opaque)
+          blended(s.render.blending != Blending::opaque),
+          gl(kind),
+          far_clear(scene::far_transmittance(s, view))
     {
+    }
+
+    bool in_tiles() const
+    {
+        const FlakePath path = scene.render.flake_path;
+        return blended &&
+               (path == FlakePath::tiles || (path == FlakePath::automatic && gl == GlKind::software));
     }
 };
 
@@ -94,12 +113,12 @@ std::string dark_reason(const ActiveLights& lights)
 PlannedPass plan_lights(const Facts& facts)
 {
     const std::string dark = dark_reason(facts.lights);
-    if (facts.lights.lights.empty())
+    if (facts.lights.lamps.empty())
         return left_out("lights", dark.empty() ? "the scene has no lights: ambient only"
                                                : fmt::format("no light counts now ({}): ambient only", dark));
     return runs(
         "lights",
-        fmt::format("{} light{} on{}", facts.lights.lights.size(), facts.lights.lights.size() == 1 ? "" : "s",
+        fmt::format("{} light{} on{}", facts.lights.lamps.size(), facts.lights.lamps.size() == 1 ? "" : "s",
                     dark.empty() ? "" : fmt::format("; left out: {}", dark)),
         "light table, display time", "lights");
 }
@@ -115,8 +134,46 @@ PlannedPass plan_fade(const Facts& facts)
     if (!facts.has_flakes) return left_out("fade", "no flakes are alive");
     if (!facts.blended) return left_out("fade", "opaque points do not fade where they cut into the scene");
     if (!facts.has_solids) return left_out("fade", "nothing solid to cut into");
+    if (facts.in_tiles()) return left_out("fade", "the tiles look at the depth of each pixel");
     return runs("fade", "flakes fade where they cut into the scene; hidden ones are dropped early", "depth",
                 "copy of depth, depth tiles");
+}
+
+PlannedPass plan_fog(const Facts& facts)
+{
+    const scene::AirSettings& air = facts.scene.air;
+    if (facts.far_clear == 1) return left_out("fog", "the air is clear but for the flakes that are drawn");
+    if (facts.far_clear > kClearEnough)
+        return left_out("fog", fmt::format("the air lets {:.2f} % through up to the far plane (above {:g} %)",
+                                           100 * facts.far_clear, 100 * kClearEnough));
+    const double extinction = scene::uniform_extinction(facts.scene);
+    std::string reason = facts.scene.air.law == scene::FogLaw::legacy
+                             ? "the report's line, visibility - distance / 600 m"
+                             : "takes over where flakes end or are too small to draw";
+    if (extinction > 0)
+        reason = fmt::format("extinction {:.3g} 1/m, visibility {:.3g} m ({}); {}", extinction,
+                             visibility_of_extinction(extinction, air.contrast),
+                             air.contrast == VisibilityContrast::five_percent ? "5 %" : "2 %", reason);
+    if (std::isfinite(air.drift_visibility_m))
+        reason += fmt::format("; drift of {:g} m visibility, {:g} m high", air.drift_visibility_m,
+                              air.drift_height_m);
+    return runs("fog", reason, "depth, lights", "picture, copy of depth");
+}
+
+PlannedPass plan_airlight(const Facts& facts)
+{
+    if (facts.far_clear > kClearEnough) return left_out("airlight", "no fog that could glow");
+    if (!facts.scene.air.airlight || facts.scene.air.law == scene::FogLaw::legacy)
+        return left_out("airlight", "the scene asks for none");
+    const auto lamps =
+        std::count_if(facts.lights.lamps.begin(), facts.lights.lamps.end(),
+                      [](const Lamp<float>& lamp) { return lamp.kind != LampKind::directional; });
+    if (lamps == 0)
+        return left_out("airlight", "no point or spot lamp shines (the sun is in the fog's own light)");
+    return runs("airlight",
+                fmt::format("{} lamp{} glow{} in the fog, {} points each", lamps, lamps == 1 ? "" : "s",
+                            lamps == 1 ? "s" : "", kAirlightPoints),
+                "copy of depth, lights", "picture");
 }
 
 std::string_view blending_name(Blending blending)
@@ -133,18 +190,46 @@ std::string_view blending_name(Blending blending)
     return "";
 }
 
+std::string flakes_reason(const Facts& facts)
+{
+    const std::size_t lamps = facts.lights.lamps.size();
+    return fmt::format("{} blending, {} a flake", blending_name(facts.scene.render.blending),
+                       lamps == 0 ? std::string("no scattering loop")
+                                  : fmt::format("{} phase function{}", lamps, lamps == 1 ? "" : "s"));
+}
+
 PlannedPass plan_flakes(const Facts& facts)
 {
     if (!facts.has_flakes) return left_out("flakes", "no flakes are alive");
-    return runs("flakes",
-                fmt::format("{} blending, {} a flake", blending_name(facts.scene.render.blending),
-                            facts.lights.lights.empty()
-                                ? std::string("no scattering loop")
-                                : fmt::format("{} phase function{}", facts.lights.lights.size(),
-                                              facts.lights.lights.size() == 1 ? "" : "s")),
+    if (facts.in_tiles()) return left_out("flakes", "drawn in tiles instead of as points");
+    return runs("flakes", flakes_reason(facts),
                 facts.blended ? "flakes, draw list, lights, depth, copy of depth, depth tiles"
                               : "flakes, draw list, lights, depth",
                 facts.blended ? "picture" : "picture, depth");
+}
+
+PlannedPass plan_tiles(const Facts& facts)
+{
+    if (!facts.has_flakes) return left_out("tiles", "no flakes are alive");
+    if (!facts.blended) return left_out("tiles", "opaque points go by the depth buffer");
+    const bool asked = facts.scene.render.flake_path != FlakePath::automatic;
+    if (!facts.in_tiles())
+        return left_out("tiles",
+                        asked ? "the scene asks for raster" : "for software GL: a GPU sets up points faster");
+    return runs(
+        "tiles",
+        fmt::format("{}; {}", flakes_reason(facts),
+                    asked ? "the scene asks for tiles" : "software GL sets up points on one thread only"),
+        "flakes, draw list, lights, depth, picture", "picture");
+}
+
+PlannedPass plan_tone(const Facts& facts)
+{
+    const bool in_tiles = facts.has_flakes && facts.in_tiles();
+    return runs("tone",
+                fmt::format("exposure {:g}, clamp, sRGB{}", facts.scene.render.exposure,
+                            in_tiles ? ", in the tiles: nothing comes between" : ""),
+                "picture", "display");
 }
 
 }  // namespace
@@ -156,19 +241,21 @@ bool FramePlan::runs(std::string_view name) const
 }
 
 FramePlan plan_frame(const scene::Scene& scene, const View& view, const FrameStats& last, double time_s,
-                     std::span<const scene::Light> model_lights)
+                     std::span<const scene::Light> model_lights, GlKind gl)
 {
-    const Facts facts(scene, view, last, time_s, model_lights);
+    const Facts facts(scene, view, last, time_s, model_lights, gl);
     FramePlan plan;
     plan.passes.push_back(plan_cull(facts));
     plan.passes.push_back(plan_sort(facts));
     plan.passes.push_back(plan_lights(facts));
     plan.passes.push_back(plan_scene(facts));
     plan.passes.push_back(runs("sky", "fills what the scene leaves free", "depth", "picture"));
+    plan.passes.push_back(plan_fog(facts));
+    plan.passes.push_back(plan_airlight(facts));
     plan.passes.push_back(plan_fade(facts));
     plan.passes.push_back(plan_flakes(facts));
-    plan.passes.push_back(
-        runs("tone", fmt::format("exposure {:g}, clamp, sRGB", scene.render.exposure), "picture", "display"));
+    plan.passes.push_back(plan_tiles(facts));
+    plan.passes.push_back(plan_tone(facts));
     return plan;
 }
 

@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 
+#include "core/error.h"
 #include "gl/active_lights.h"
+#include "gl/air_pass.h"
 #include "gl/crystal_texture.h"
 #include "gl/flake_look.h"
 #include "gl/flake_pass.h"
@@ -16,6 +18,7 @@
 #include "gl/pass_timers.h"
 #include "gl/picture.h"
 #include "gl/scene_pass.h"
+#include "gl/tile_pass.h"
 #include "scene/crystals.h"
 
 namespace spindrift::gl
@@ -23,6 +26,12 @@ namespace spindrift::gl
 
 namespace
 {
+
+AirKind air_kind(const FramePlan& plan)
+{
+    if (plan.runs("airlight")) return AirKind::glowing;
+    return plan.runs("fog") ? AirKind::thick : AirKind::clear;
+}
 
 glm::vec4 vec4(const Vec3f& v, float w)
 {
@@ -46,7 +55,10 @@ struct Renderer::Impl
     Picture picture;
     ScenePass scene_pass;
     FullScreenPass sky, tone, depth_tiles;
+    AirPass air;
     FlakePass flakes;
+    TilePass tiles;
+    Splatter* splatter;
     Buffer frame_block;
     Buffer light_buffer;
     std::size_t light_room = 0;
@@ -54,7 +66,7 @@ struct Renderer::Impl
     GLsync flakes_read = nullptr;
 
     Impl(const scene::Scene& s, const scene::Geometry& geometry, const World& w, const FlakeBuffers& buffers,
-         int width, int height)
+         int width, int height, Splatter* blender)
         : scene(s),
           snow(w.snow),
           seed(w.seed),
@@ -65,7 +77,10 @@ struct Renderer::Impl
           sky("sky.vert", "sky.frag"),
           tone("tone.vert", "tone.frag"),
           depth_tiles("tone.vert", "depth_tiles.frag"),
+          air(s),
           flakes(s.render, static_cast<double>(w.snow.weight), buffers),
+          tiles(s.render, w, buffers),
+          splatter(blender),
           frame_block(make_buffer(sizeof(FrameConstants), nullptr, GL_DYNAMIC_STORAGE_BIT))
     {
     }
@@ -76,11 +91,15 @@ struct Renderer::Impl
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
-    void upload_lights(const std::vector<PackedLight>& lights);
+    void upload_lights(const std::vector<Lamp<float>>& lamps);
+    /// How often flakes get the ambient light: once; as the report prints it, for each lamp.
+    std::uint32_t flake_ambient_times(std::size_t lights) const;
     FrameConstants constants(const View& view, std::size_t lights, double time_s) const;
     void draw_solid(const FramePlan& plan, const View& view, std::size_t lights, double time_s);
+    void draw_air(const FramePlan& plan, std::size_t lights);
     void draw_flakes(const FramePlan& plan, const View& view, const DrawList& list, std::size_t lights);
     void prepare_depth();
+    void draw_tiles(const FramePlan& plan, const TilePass::Frame& frame);
     void draw_tone(const FramePlan& plan);
 
     template <class Draw>
@@ -92,8 +111,10 @@ struct Renderer::Impl
     }
 };
 
-void Renderer::Impl::upload_lights(const std::vector<PackedLight>& lights)
+void Renderer::Impl::upload_lights(const std::vector<Lamp<float>>& lamps)
 {
+    std::vector<PackedLight> lights;
+    for (const Lamp<float>& lamp : lamps) lights.push_back(pack(lamp));
     if (lights.size() > light_room || !light_buffer)
     {
         light_room = std::max<std::size_t>(lights.size() * 2, 8);
@@ -107,6 +128,12 @@ void Renderer::Impl::upload_lights(const std::vector<PackedLight>& lights)
     glBindBufferBase(GL_UNIFORM_BUFFER, kFewLights, light_buffer.name());
 }
 
+std::uint32_t Renderer::Impl::flake_ambient_times(std::size_t lights) const
+{
+    const bool legacy = scene.render.scattering == scene::Scattering::legacy;
+    return legacy ? static_cast<std::uint32_t>(std::max<std::size_t>(lights, 1)) : 1;
+}
+
 FrameConstants Renderer::Impl::constants(const View& view, std::size_t lights, double time_s) const
 {
     const auto width = static_cast<float>(view.width_px);
@@ -114,6 +141,7 @@ FrameConstants Renderer::Impl::constants(const View& view, std::size_t lights, d
     const float tan_y = view.tan_half_fov_y;
     const float guard = std::round(view.guard_px);
     const auto scale = static_cast<float>(scene.render.flake_scale);
+    const std::uint32_t ambient_times = flake_ambient_times(lights);
     FrameConstants c;
     c.eye_time = vec4(view.eye, static_cast<float>(time_s));
     c.right_tan = vec4(view.right, tan_y * width / height);
@@ -127,7 +155,7 @@ FrameConstants Renderer::Impl::constants(const View& view, std::size_t lights, d
     c.sprite = {sprite_limits(view).largest_px, width / (width + 2 * guard), height / (height + 2 * guard),
                 guard};
     c.counts = {static_cast<std::uint32_t>(lights), static_cast<std::uint32_t>(seed),
-                static_cast<std::uint32_t>(masks.size()), 0};
+                static_cast<std::uint32_t>(masks.size()), ambient_times};
     c.picture = {width, height, 0, 0};
     for (std::size_t i = 0; i < masks.size(); ++i)
         c.mask_means[i / 4][i % 4] = static_cast<float>(masks[i].mean);
@@ -145,13 +173,28 @@ void Renderer::Impl::draw_solid(const FramePlan& plan, const View& view, std::si
     glDepthMask(GL_TRUE);
     constexpr GLfloat far_depth = 0;
     glClearNamedFramebufferfv(picture.linear_target.name(), GL_DEPTH, 0, &far_depth);
-    if (plan.runs("scene")) timed("scene", [&] { scene_pass.draw(view.eye, lights, time_s); });
+    if (plan.runs("scene"))
+        timed("scene", [&] { scene_pass.draw(view.eye, lights, time_s, air_kind(plan)); });
     glDepthMask(GL_FALSE);
     if (plan.runs("sky"))
     {
         glDepthFunc(GL_GEQUAL);
         timed("sky", [&] { sky.draw(); });
     }
+    draw_air(plan, lights);
+}
+
+void Renderer::Impl::draw_air(const FramePlan& plan, std::size_t lights)
+{
+    if (!plan.runs("fog")) return;
+    timed("fog",
+          [&]
+          {
+              picture.copy_depth();
+              air.draw_fog(picture.depth_copy.name(), lights);
+          });
+    if (plan.runs("airlight"))
+        timed("airlight", [&] { air.draw_airlight(picture.depth_copy.name(), lights); });
 }
 
 void Renderer::Impl::draw_flakes(const FramePlan& plan, const View& view, const DrawList& list,
@@ -161,7 +204,10 @@ void Renderer::Impl::draw_flakes(const FramePlan& plan, const View& view, const 
     if (fades) timed("fade", [&] { prepare_depth(); });
     if (!plan.runs("flakes")) return;
     glBindTextureUnit(kMasks, mask_texture.name());
-    timed("flakes", [&] { flakes.draw({view, list, fades ? picture.depth_copy.name() : 0, lights}); });
+    timed("flakes",
+          [&] {
+              flakes.draw({view, list, fades ? picture.depth_copy.name() : 0, lights, air_kind(plan)});
+          });
     if (flakes_read != nullptr) glDeleteSync(flakes_read);
     flakes_read = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
 }
@@ -179,6 +225,20 @@ void Renderer::Impl::prepare_depth()
     glBindFramebuffer(GL_FRAMEBUFFER, picture.linear_target.name());
 }
 
+void Renderer::Impl::draw_tiles(const FramePlan& plan, const TilePass::Frame& frame)
+{
+    if (splatter == nullptr)
+        throw Error("the frame plan draws flakes in tiles, but the renderer has no splatter");
+    timed("tiles",
+          [&]
+          {
+              if (plan.runs("tone"))
+                  tiles.blend_and_develop(*splatter, frame, picture);
+              else
+                  tiles.blend(*splatter, frame, picture);
+          });
+}
+
 void Renderer::Impl::draw_tone(const FramePlan& plan)
 {
     if (!plan.runs("tone")) return;
@@ -192,8 +252,8 @@ void Renderer::Impl::draw_tone(const FramePlan& plan)
 }
 
 Renderer::Renderer(const scene::Scene& scene, const scene::Geometry& geometry, const World& world,
-                   const FlakeBuffers& buffers, int width_px, int height_px)
-    : impl_(std::make_unique<Impl>(scene, geometry, world, buffers, width_px, height_px))
+                   const FlakeBuffers& buffers, int width_px, int height_px, Splatter* splatter)
+    : impl_(std::make_unique<Impl>(scene, geometry, world, buffers, width_px, height_px, splatter))
 {
 }
 Renderer::~Renderer() = default;
@@ -203,18 +263,28 @@ void Renderer::draw(const FramePlan& plan, const View& view, const DrawList& fla
     Impl& m = *impl_;
     if (view.width_px != m.picture.width || view.height_px != m.picture.height)
         resize(view.width_px, view.height_px);
+    m.tiles.discard();
     m.timers.begin_frame();
-    const std::vector<PackedLight> lights = plan.runs("lights")
-                                                ? active_lights(m.scene, m.model_lights, view, time_s).lights
-                                                : std::vector<PackedLight>{};
+    const std::vector<Lamp<float>> lights = plan.runs("lights")
+                                                ? active_lights(m.scene, m.model_lights, view, time_s).lamps
+                                                : std::vector<Lamp<float>>{};
     m.upload_lights(lights);
     const FrameConstants constants = m.constants(view, lights.size(), time_s);
     glNamedBufferSubData(m.frame_block.name(), 0, sizeof(constants), &constants);
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBlock, m.frame_block.name());
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    m.air.prepare(plan, view, time_s);
     m.draw_solid(plan, view, lights.size(), time_s);
     m.draw_flakes(plan, view, flakes, lights.size());
-    m.draw_tone(plan);
+    if (plan.runs("tiles"))
+    {
+        const scene::Colour& ambient = m.scene.sky.ambient;
+        const auto times = static_cast<float>(m.flake_ambient_times(lights.size()));
+        m.draw_tiles(plan, {view, flakes, lights, Vec3f{ambient.r, ambient.g, ambient.b} * times,
+                            m.air.before_flakes(), time_s});
+    }
+    else
+        m.draw_tone(plan);
 }
 
 void Renderer::wait_for_flakes() const
@@ -230,11 +300,15 @@ void Renderer::wait_for_flakes() const
 void Renderer::resize(int width_px, int height_px)
 {
     if (width_px != impl_->picture.width || height_px != impl_->picture.height)
+    {
+        impl_->tiles.discard();
         impl_->picture = Picture(width_px, height_px);
+    }
 }
 
 image::Image Renderer::read_linear() const
 {
+    impl_->tiles.bring_back(impl_->picture);
     const Picture& picture = impl_->picture;
     const std::size_t row = static_cast<std::size_t>(picture.width) * 4;
     const auto rows = static_cast<std::size_t>(picture.height);

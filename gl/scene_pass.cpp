@@ -61,7 +61,7 @@ ScenePass::Body ScenePass::make_body(const scene::Scene& scene, const scene::Mes
 }
 
 ScenePass::ScenePass(const scene::Scene& scene, const scene::Geometry& geometry)
-    : program_(kMeshFiles), domain_(scene.domain)
+    : programs_(kMeshFiles), domain_(scene.domain)
 {
     for (const scene::Mesh& mesh : geometry.meshes)
         if (!mesh.vertices.empty() && !mesh.parts.empty()) bodies_.push_back(make_body(scene, mesh));
@@ -90,10 +90,10 @@ std::vector<ScenePass::Draw> ScenePass::near_to_far(const Vec3f& eye, double tim
     return draws;
 }
 
-void ScenePass::draw(const Vec3f& eye, std::size_t lights, double time_s) const
+void ScenePass::draw(const Vec3f& eye, std::size_t lights, double time_s, AirKind air) const
 {
     if (bodies_.empty()) return;
-    const GLuint program = program_.for_lights(lights);
+    const GLuint program = programs_.in(air).for_lights(lights);
     glUseProgram(program);
     glDepthFunc(GL_GREATER);
     for (const Draw& draw : near_to_far(eye, time_s))

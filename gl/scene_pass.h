@@ -19,7 +19,7 @@ class ScenePass
 {
   public:
     ScenePass(const scene::Scene& scene, const scene::Geometry& geometry);
-    void draw(const Vec3f& eye, std::size_t lights, double time_s) const;
+    void draw(const Vec3f& eye, std::size_t lights, double time_s, AirKind air) const;
 
   private:
     struct Body
@@ -42,7 +42,7 @@ class ScenePass
     Vec3f offset_of(const Body& body, double time_s) const;
     Body make_body(const scene::Scene& scene, const scene::Mesh& mesh) const;
 
-    LitProgram program_;
+    ByAir programs_;
     std::vector<Body> bodies_;
     scene::DomainSettings domain_;
 };

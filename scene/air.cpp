@@ -119,7 +119,7 @@ double far_transmittance(const Scene& scene, const View& view)
     for (const double up : {-1.0, 0.0, 1.0})
         for (const double right : {-1.0, 0.0, 1.0})
         {
-            const double tan_x = view.tan_half_fov_y * view.width_px / view.height_px;
+            const double tan_x = static_cast<double>(view.tan_half_fov_y) * view.width_px / view.height_px;
             const Vec3d way = wide(view.forward) + wide(view.right) * (right * tan_x) +
                               wide(view.up) * (up * static_cast<double>(view.tan_half_fov_y));
             const double length = view.far_m * std::sqrt(dot(way, way));

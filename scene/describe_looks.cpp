@@ -27,6 +27,8 @@ constexpr std::array<Named<Scattering>, 2> kScatterings{
     {{Scattering::physical, "physical"}, {Scattering::legacy, "legacy"}}};
 /// With the second lobe's defaults the mean cosine stays 0.77: 0.9 · 0.889 - 0.1 · 0.3.
 constexpr double kFrontLobe = 0.889;
+constexpr std::array<Named<FlakePath>, 3> kFlakePaths{
+    {{FlakePath::automatic, "auto"}, {FlakePath::raster, "raster"}, {FlakePath::tiles, "tiles"}}};
 
 constexpr Range kShare{.min = 0, .max = 1};
 constexpr Range kLightAmount{.min = 0, .max = 1e9};
@@ -251,6 +253,11 @@ void describe_render(Section& section, RenderSettings& render)
         {.name = "scattering",
          .about = "physical, or as the report prints it: back for forward, ambient light once per lamp"},
         kScatterings, render.scattering);
+    section.choice(
+        {.name = "flake_path",
+         .about = "as points by GL's rasteriser, or in tiles by the processor; auto: tiles on software GL; "
+                  "also --flake-path"},
+        kFlakePaths, render.flake_path);
     std::size_t sort = static_cast<std::size_t>(std::find(kSortNames.begin(), kSortNames.end(), render.sort) -
                                                 kSortNames.begin());
     section.choice({.name = "sort", .about = "strategy of the depth sort; also --sort"},

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/snow.h"
+#include "core/sprite.h"
 #include "scene/crystals.h"
 
 namespace spindrift::scene
@@ -15,12 +16,7 @@ namespace spindrift::scene
 namespace
 {
 
-// docs/drawing.md, "Its sprite".
-constexpr double kSmallestRadius = 0.75, kLargestRadius = 127;
-constexpr double kPlainBelow = 3, kDetailFrom = 6;
-constexpr double kMostOpacity = 0.9999;
-
-constexpr int kEntries = 256;
+constexpr int kEntries = FlakeShadeTable::kEntries;
 constexpr int kStepsPerEntry = 4;
 constexpr int kSizes = 150;  ///< samples of the spectrum
 constexpr double kLargestExponent =
@@ -51,18 +47,11 @@ class SpriteCover
         const double place = std::clamp(shown, 0.0, 1.0) * (kOpacities - 1);
         const auto low = std::min(static_cast<std::size_t>(place), static_cast<std::size_t>(kOpacities - 2));
         const double cover = std::lerp(plain_[low], plain_[low + 1], place - static_cast<double>(low));
-        const double t = std::clamp((r - kPlainBelow) / (kDetailFrom - kPlainBelow), 0.0, 1.0);
-        return cover * std::lerp(1.0, detail_, t);
+        return cover * std::lerp(1.0, detail_, sprite_detail(r));
     }
     bool thins_out() const { return !solid_; }
 
   private:
-    double alpha(double opacity) const
-    {
-        return 1 - std::pow(1 - std::min(opacity, kMostOpacity), stands_for_);
-    }
-    static double profile(double rho2) { return std::exp(-rho2 / (2 * kProfileSigma * kProfileSigma)); }
-
     /// With the mean of each mask in place of the mask.
     double plain_cover(double shown) const
     {
@@ -71,8 +60,8 @@ class SpriteCover
         for (const CrystalMask& mask : crystal_masks())
             for (int i = 0; i < rings; ++i)
             {
-                const double whole = crystal_ ? profile((i + 0.5) / rings) * mask.mean : 1;
-                sum += alpha(shown * opacity_ * whole);
+                const double whole = crystal_ ? sprite_profile((i + 0.5) / rings) * mask.mean : 1;
+                sum += weighted_opacity(shown * opacity_ * whole, stands_for_);
             }
         return std::numbers::pi * sum / (rings * kCrystalShapes);
     }
@@ -89,7 +78,7 @@ class SpriteCover
                     const double u = (column + 0.5) * 2 / px - 1, v = (row + 0.5) * 2 / px - 1;
                     if (u * u + v * v > 1) continue;
                     const double ice = mask.levels[1][static_cast<std::size_t>(row * px + column)] / 255.0;
-                    sum += alpha(opacity_ * profile(u * u + v * v) * ice);
+                    sum += weighted_opacity(opacity_ * sprite_profile(u * u + v * v) * ice, stands_for_);
                 }
         return sum * 4 / (px * px * kCrystalShapes);
     }
@@ -124,19 +113,17 @@ double area_at(const SpriteCover& cover, const RenderSettings& render, const Sno
     const double near_m = view.near_m;
     if (!(depth_m > near_m)) return 0;
     const double focal_px = view.height_px / (2.0 * view.tan_half_fov_y);
-    const double largest = std::min(std::round(static_cast<double>(view.guard_px)), kLargestRadius);
-    const double nearness = std::clamp((depth_m - near_m) / (3 * near_m), 0.0, 1.0);
-    return over_spectrum(snow,
-                         [&](double diameter_m)
-                         {
-                             const double r = 0.5 * diameter_m * render.flake_scale * focal_px / depth_m;
-                             const double drawn = std::clamp(r, kSmallestRadius, largest);
-                             const double smaller = std::min(r / kSmallestRadius, 1.0);
-                             const double shown = smaller * smaller * nearness;
-                             const double side_m = drawn * depth_m / focal_px;
-                             const double kept = cover.thins_out() ? kept_of_tiny(2 * r) : 1;
-                             return side_m * side_m * kept * cover.at(shown, drawn);
-                         });
+    const double largest_px = std::min(std::round(static_cast<double>(view.guard_px)), kLargestSprite_px);
+    return over_spectrum(
+        snow,
+        [&](double diameter_m)
+        {
+            const double radius_m = 0.5 * diameter_m * render.flake_scale;
+            const SpriteSize<double> size = sprite_size(radius_m, depth_m, focal_px, largest_px, near_m);
+            const double side_m = size.radius_px * depth_m / focal_px;
+            const double kept = cover.thins_out() ? kept_of_tiny(2 * radius_m * focal_px / depth_m) : 1;
+            return side_m * side_m * cover.at(kept * size.opacity, size.radius_px);
+        });
 }
 
 }  // namespace
@@ -153,7 +140,7 @@ double full_flake_area_m2(const RenderSettings& render, const Snow& snow)
                          [&](double diameter_m)
                          {
                              const double side_m = 0.5 * diameter_m * render.flake_scale;
-                             return side_m * side_m * cover.at(1, kPlainBelow);
+                             return side_m * side_m * cover.at(1, kDetailFrom_px);
                          });
 }
 

@@ -14,6 +14,8 @@ namespace spindrift::scene
 /// Owner of a FlakeShade: what a drawn flake hides on average, by its depth along the view.
 struct FlakeShadeTable
 {
+    static constexpr int kEntries = 256;
+
     std::vector<double> area_m2, integral_m3;
     double first_log2 = 0, entries_per_log2 = 1;
 

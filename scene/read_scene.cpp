@@ -58,6 +58,7 @@ void set_overrides(TomlDocument& document, const SceneOverrides& overrides)
         if (value) document.set("wind", key, from_here(*value));
     };
     set("render", "sort", overrides.sort);
+    set("render", "flake_path", overrides.flake_path);
     set("render", "frames_per_s", overrides.frames_per_s);
     set_whole("width_px", overrides.width_px);
     set_whole("height_px", overrides.height_px);

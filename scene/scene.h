@@ -216,6 +216,14 @@ enum class Sprite
     point,    ///< plain opaque round point
 };
 
+/// How blended flakes are drawn; opaque points always by GL's rasteriser.
+enum class FlakePath
+{
+    automatic,  ///< raster on a GPU, tiles on software GL
+    raster,     ///< as points, by GL's rasteriser
+    tiles,      ///< by the processor, in tiles of the picture
+};
+
 struct RenderSettings
 {
     int width_px = 1280, height_px = 720;
@@ -225,6 +233,7 @@ struct RenderSettings
     Blending blending = Blending::over;
     Sprite sprite = Sprite::crystal;
     Scattering scattering = Scattering::physical;
+    FlakePath flake_path = FlakePath::automatic;
     std::string sort = "radix";
     int depth_bits = 32;
     double exposure = 1;
@@ -260,7 +269,7 @@ struct SceneOverrides
 {
     std::optional<std::uint64_t> particles;  ///< capacity, and bursts and rates scaled with it
     std::optional<std::uint64_t> seed;
-    std::optional<std::string> sort;
+    std::optional<std::string> sort, flake_path;
     std::optional<int> width_px, height_px, frames;
     std::optional<double> frames_per_s;
     std::optional<std::filesystem::path> winds_file, turbulence_file;

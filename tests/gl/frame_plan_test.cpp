@@ -150,8 +150,8 @@ TEST(ActiveLights, LieInTheLocalFrame)
     lamp.position_m = {101, 203, 305};
     scene.lights.push_back(lamp);
     const ActiveLights active = active_lights(scene, {}, View{}, 0);
-    ASSERT_EQ(active.lights.size(), 1U);
-    EXPECT_EQ(active.lights[0].place, glm::vec4(1, 3, 5, 1));
+    ASSERT_EQ(active.lamps.size(), 1U);
+    EXPECT_EQ(pack(active.lamps[0]).place, glm::vec4(1, 3, 5, 1));
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ void expect_errors(const std::vector<Case>& cases)
 TEST(SceneErrors, UnknownNamesTheNearest)
 {
     const std::string tables =
-        "use scene, domain, particles, snow, wind, vehicle, emitter, ground, box, model, voxels, light, sky, "
+        "use scene, domain, particles, snow, wind, vehicle, emitter, ground, box, model, voxels, air, light, sky, "
         "camera or render";
     expect_errors({
         {with("[scene]\nsede = 4\n"),
