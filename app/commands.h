@@ -10,6 +10,7 @@ namespace spindrift::app
 
 int run(const RunOptions& options);
 int explain(const ExplainOptions& options);
+int calibrate(const CalibrateOptions& options);
 int info();
 int list_scenes();
 

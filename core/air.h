@@ -124,12 +124,13 @@ struct AirPath
         leaves_m = select(drawn, max(enter, leave), number<R>(0));
     }
 
-    /// Optical depth of the drawn flakes up to `to_m`: what they hide on average.
+    /// Optical depth of the drawn flakes up to `to_m`: what they hide on average. Sprites are discs on the
+    /// picture, not on the way to them: what they hide goes by depth, so towards the picture's corners less
+    /// than spheres would.
     SPINDRIFT_HD R of_flakes(const R& to_m) const
     {
         const R from = min(enters_m, to_m) * cosine, to = min(leaves_m, to_m) * cosine;
-        return volume.flakes_per_m3 * (volume.shade.integral_to(to) - volume.shade.integral_to(from)) /
-               cosine;
+        return volume.flakes_per_m3 * (volume.shade.integral_to(to) - volume.shade.integral_to(from));
     }
 
     SPINDRIFT_HD R of_all(const R& to_m) const
@@ -144,7 +145,7 @@ struct AirPath
     SPINDRIFT_HD R fog_at(const R& at_m) const
     {
         const auto inside = at_m > enters_m && at_m < leaves_m;
-        const R flakes = volume.flakes_per_m3 * volume.shade.area_at(at_m * cosine);
+        const R flakes = volume.flakes_per_m3 * volume.shade.area_at(at_m * cosine) * cosine;
         return max(extinction_at(air, eye.z + way.z * at_m) - select(inside, flakes, number<R>(0)),
                    number<R>(0));
     }

@@ -76,14 +76,15 @@ float of_fog(AirPath path, float to)
 {
     float all = optical_depth(eye_time.z, eye_time.z + path.way.z * to, to);
     if (shade_steps.z < 1.0) return all;
+    // Sprites are discs on the picture: they hide by depth.
     float first = shade_at(min(path.enters, to) * path.cosine).y;
     float last = shade_at(min(path.leaves, to) * path.cosine).y;
-    return max(all - volume_low.w * (last - first) / path.cosine, 0.0);
+    return max(all - volume_low.w * (last - first), 0.0);
 }
 
 float fog_at(AirPath path, float at)
 {
-    float flakes = at > path.enters && at < path.leaves ? volume_low.w * shade_at(at * path.cosine).x : 0.0;
+    float flakes = at > path.enters && at < path.leaves ? volume_low.w * shade_at(at * path.cosine).x * path.cosine : 0.0;
     return max(extinction_at(eye_time.z + path.way.z * at) - flakes, 0.0);
 }
 

@@ -92,7 +92,7 @@ TEST(AirPath, FogTakesOverWhatFlakesDoNotHide)
                 const bool inside =
                     at.x > -10 && at.x < 20 && at.y > -5 && at.y < 30 && at.z > 0 && at.z < 12;
                 const double depth = t * path.cosine;
-                const double hides = inside && depth > 0.1 ? 150 * area_of(depth) : 0;
+                const double hides = inside && depth > 0.1 ? 150 * area_of(depth) * path.cosine : 0;
                 flakes += hides * step;
                 all += extinction_at(air, at.z) * step;
                 fog += path.fog_at(t) * step;
