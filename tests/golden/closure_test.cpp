@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <initializer_list>
 #include <memory>
 #include <numbers>
 #include <random>
@@ -26,7 +27,6 @@ namespace
 // squared sizes). So the lens is wide, nearer ones than 1 m are left to the fog, and several skies are
 // averaged.
 constexpr int kFlakes = 250000;
-constexpr int kSkies = 3;
 constexpr double kEnlargement = 30;
 
 /// A sky full of flakes of which one stands for kEnlargement² of its size, 40 x 40 x 20 m round the eye.
@@ -140,7 +140,8 @@ image::Image draw(SmallScene& small)
 }
 
 /// Compares what flakes and fog, themselves in the dark, let through of a glowing wall at several distances.
-void check_distances(SmallScene small, const char* name)
+void check_distances(SmallScene small, const char* name, unsigned skies,
+                     std::initializer_list<double> distances_m)
 {
     small.scene.sky.ambient = {0, 0, 0};
     const scene::Air air = scene::air_at(small.scene, small.view, 0);
@@ -149,15 +150,15 @@ void check_distances(SmallScene small, const char* name)
     std::printf("%s\n| distance, m | transmittance | exp(-beta d) | error, %% | of it by flakes, %% |\n",
                 name);
     // 20 m: where the flakes' volume ends
-    for (const double d : {3.0, 10.0, 19.5, 20.5, 70.0})
+    for (const double d : distances_m)
     {
         add_dome(small, d, 1, 1);
         const double truth = expected(small, d);
         double seen = 0;
-        for (unsigned sky = 1; sky <= kSkies; ++sky)
+        for (unsigned sky = 1; sky <= skies; ++sky)
         {
             fill(small, sky);
-            seen += mean(draw(small), 0, small.view.width_px) / kSkies;
+            seen += mean(draw(small), 0, small.view.width_px) / skies;
         }
         std::printf("| %g | %.4f | %.4f | %+.2f | %.0f |\n", d, seen, truth, 100 * (seen / truth - 1),
                     100 * ahead.of_flakes(d) / ahead.of_all(d));
@@ -178,7 +179,7 @@ double slope_of(const std::vector<double>& distances_m, const std::vector<double
 }
 
 /// Contrast of a black half of the dome beside one as bright as the flakes and the fog.
-std::vector<double> contrasts(SmallScene small, const std::vector<double>& distances_m)
+std::vector<double> contrasts(SmallScene small, const std::vector<double>& distances_m, unsigned skies)
 {
     small.scene.sky.ambient = {1, 1, 1};
     std::vector<double> seen;
@@ -187,7 +188,7 @@ std::vector<double> contrasts(SmallScene small, const std::vector<double>& dista
         add_dome(small, d, 0, 1);
         double dark = 0, bright = 0;
         const int middle = small.view.width_px / 2;
-        for (unsigned sky = 1; sky <= kSkies; ++sky)
+        for (unsigned sky = 1; sky <= skies; ++sky)
         {
             fill(small, sky);
             const image::Image picture = draw(small);
@@ -213,7 +214,7 @@ TEST_F(Closure, FogGoesOnWhereTheFlakesEnd)
 {
     SmallScene small = snowfall();
     small.scene.air.source = scene::AirSource::flakes;
-    check_distances(small, "flakes state the extinction");
+    check_distances(small, "flakes state the extinction", 3, {3.0, 10.0, 19.5, 20.5, 70.0});
 }
 
 TEST_F(Closure, FogFillsWhatTooFewFlakesLeave)
@@ -221,19 +222,19 @@ TEST_F(Closure, FogFillsWhatTooFewFlakesLeave)
     SmallScene small = snowfall();
     small.scene.air.source = scene::AirSource::visibility;
     small.scene.air.visibility_m = 60;
-    check_distances(small, "visibility 60 m (5 %)");
+    check_distances(small, "visibility 60 m (5 %)", 3, {3.0, 19.5, 20.5, 70.0});
 }
 
 TEST_F(Closure, HoldsWithDriftingSnowAndFlakesThatStandForMore)
 {
     SmallScene small = snowfall();
-    small.world.snow.weight *= 3;
+    small.world.snow.weight *= 2;
     small.scene.snow = small.world.snow;
     small.view.eye.z = 2;
     small.scene.air.source = scene::AirSource::flakes;
     small.scene.air.drift_visibility_m = 40;
     small.scene.air.drift_height_m = 1.5;
-    check_distances(small, "with drift");
+    check_distances(small, "with drift", 8, {10.0, 20.5, 40.0});
 }
 
 TEST_F(Closure, ContrastFallsByTheFlakesThemselves)
@@ -241,13 +242,13 @@ TEST_F(Closure, ContrastFallsByTheFlakesThemselves)
     SmallScene small = snowfall();
     small.scene.air.source = scene::AirSource::flakes;
     const double extinction = scene::uniform_extinction(small.scene);
-    // Nothing but flakes, and far enough that those that fade out before the eye count on neither side.
+    // Nothing but flakes, behind those that fade out before the eye and before the lid of their volume.
     small.scene.air.source = scene::AirSource::clear;
-    const std::vector<double> distances{9, 13.5, 18};
+    const std::vector<double> distances{6, 10, 14};
     std::vector<double> truth;
     for (const double d : distances) truth.push_back(expected_by_depth(small, extinction, d));
-    const double slope = slope_of(distances, contrasts(small, distances)),
-                 wanted = slope_of(distances, truth);
+    const double slope = slope_of(distances, contrasts(small, distances, 10));
+    const double wanted = slope_of(distances, truth);
     std::printf("flakes alone: slope %.5f 1/m, by their area %.5f 1/m, %+.2f %%\n", slope, wanted,
                 100 * (slope / wanted - 1));
     EXPECT_NEAR(slope / wanted, 1, 0.02);
@@ -260,7 +261,7 @@ TEST_F(Closure, ContrastAtTheVisibilityIsWhatDefinesIt)
     small.scene.air.visibility_m = 80;
     small.scene.sky.horizon = {1, 1, 1};
     const std::vector<double> distances{8, 25, 80};
-    const double slope = slope_of(distances, contrasts(small, distances));
+    const double slope = slope_of(distances, contrasts(small, distances, 3));
     const double extinction = 2.995732 / 80;
     std::printf("flakes and fog: slope %.5f 1/m, 2.996 / visibility %.5f 1/m, %+.2f %%\n", slope, extinction,
                 100 * (slope / extinction - 1));
