@@ -49,11 +49,12 @@ SPINDRIFT_HD R sprite_detail(const R& radius_px)
                  number<R>(1));
 }
 
-/// The Gaussian at a squared distance from the centre, in squared radii.
+/// The Gaussian at a squared distance from the centre, in squared radii, at most 1.
 template <class R>
 SPINDRIFT_HD R sprite_profile(const R& rho2)
 {
-    return exp(rho2 * number<R>(-0.5 / (kProfileSigma * kProfileSigma)));
+    constexpr double kLog2E = 1.44269504088896340736;
+    return exp2_inside(rho2 * number<R>(-0.5 * kLog2E / (kProfileSigma * kProfileSigma)));
 }
 
 /// Factor on the lamps' light at the place (px, py) of the unit disc; towards: unit vector to the lamps
@@ -74,7 +75,8 @@ template <class R>
 SPINDRIFT_HD R weighted_opacity(const R& opacity, const R& real_flakes)
 {
     const R one = number<R>(1);
-    return one - pow(one - min(opacity, number<R>(kMostOpacity)), real_flakes);
+    const R left = one - min(opacity, number<R>(kMostOpacity));
+    return one - exp2_inside(max(real_flakes * detail::log2_inside(left), number<R>(-126)));
 }
 
 /// Share that is left where a flake cuts into the scene; 0 behind it.

@@ -30,7 +30,7 @@ struct AdvectJob
 };
 
 /// A flake placed, sized and lit on the picture.
-struct PlacedSprite
+struct alignas(64) PlacedSprite
 {
     float x_px, y_px;  ///< centre, from the lower left corner of the picture
     float r_px;

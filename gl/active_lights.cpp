@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/light.h"
+#include "scene/lamp_kind.h"
 #include "scene/make_world.h"
 
 namespace spindrift::gl
@@ -59,20 +60,6 @@ float cosine_deg(double degrees)
     return static_cast<float>(std::cos(degrees * std::numbers::pi / 180.0));
 }
 
-LampKind kind_of(scene::LightKind kind)
-{
-    switch (kind)
-    {
-        case scene::LightKind::spot:
-            return LampKind::spot;
-        case scene::LightKind::directional:
-            return LampKind::directional;
-        case scene::LightKind::point:
-            break;
-    }
-    return LampKind::point;
-}
-
 Phase<float> phase_of(const scene::Light& light)
 {
     return {light.phase, static_cast<float>(light.g), static_cast<float>(light.g_back),
@@ -81,14 +68,10 @@ Phase<float> phase_of(const scene::Light& light)
 
 Lamp<float> lamp_of(const scene::Light& light, const Vec3f& position_m)
 {
-    return {kind_of(light.kind),
-            position_m,
-            to_float(light.direction),
-            {light.intensity.r, light.intensity.g, light.intensity.b},
-            static_cast<float>(light.range_m),
-            cosine_deg(light.inner_cone_deg),
-            cosine_deg(light.outer_cone_deg),
-            phase_of(light)};
+    return {scene::lamp_kind(light.kind),      position_m,
+            to_float(light.direction),         {light.intensity.r, light.intensity.g, light.intensity.b},
+            static_cast<float>(light.range_m), cosine_deg(light.inner_cone_deg),
+            cosine_deg(light.outer_cone_deg),  phase_of(light)};
 }
 
 }  // namespace

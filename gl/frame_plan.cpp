@@ -214,8 +214,8 @@ PlannedPass plan_tiles(const Facts& facts)
     if (!facts.blended) return left_out("tiles", "opaque points go by the depth buffer");
     const bool asked = facts.scene.render.flake_path != FlakePath::automatic;
     if (!facts.in_tiles())
-        return left_out("tiles",
-                        asked ? "the scene asks for raster" : "for software GL: a GPU sets up points faster");
+        return left_out("tiles", asked ? "the scene asks for raster"
+                                       : "only software GL needs them: a GPU sets up points by itself");
     return runs(
         "tiles",
         fmt::format("{}; {}", flakes_reason(facts),

@@ -39,6 +39,9 @@ vec3 scattered(vec3 p, vec3 to_eye, out vec3 towards)
     {
         vec3 to_light;
         vec3 e = irradiance(lights[i], p, to_light);
+#ifdef AIR
+        if (lights[i].place.w != 0.0) e *= reaching(lights[i].place.xyz, p);
+#endif
         float mu = clamp(-dot(to_light, to_eye), -1.0, 1.0);
         sum += e * phase(lights[i], mu);
         towards += to_light * dot(e, vec3(0.2126, 0.7152, 0.0722));
