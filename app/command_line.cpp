@@ -417,6 +417,27 @@ void add_wind(CLI::App& app, WindOptions& options)
         ->transform(CLI::Transformer(kMethods).description(""));
 }
 
+void add_calibrate(CLI::App& app, CalibrateOptions& options)
+{
+    CLI::App& command = *app.add_subcommand(
+        "calibrate", "Repeat the report's experiment: grey of a black rectangle by particles per second");
+    command.add_option("scene", options.scene, "A scene like sheet")
+        ->type_name("SCENE")
+        ->capture_default_str();
+    command.add_option("--csv", options.csv, "The table, as CSV")->type_name("FILE");
+    command.add_option("--plot", options.plot, "Readings, fit and the report's table, as SVG")
+        ->type_name("FILE");
+    command.add_option("--frames", options.frames, "Frames that are averaged at each rate")
+        ->type_name("N")
+        ->check(CLI::Range(1, 10000))
+        ->capture_default_str();
+    command.add_option("--most", options.most_per_s, "Leave out higher rates")
+        ->type_name("PER_S")
+        ->check(CLI::Range(100.0, 1e6))
+        ->capture_default_str();
+    command.add_option("--seed", options.overrides.seed, "Seed of every random number")->type_name("X");
+}
+
 }  // namespace
 
 int run_command_line(int argc, char** argv)
@@ -430,12 +451,14 @@ int run_command_line(int argc, char** argv)
 
     RunOptions run_options;
     ExplainOptions explain_options;
+    CalibrateOptions calibrate_options;
     add_run(app, run_options);
     add_explain(app, explain_options);
     SortsOptions sorts_options;
     add_sorts(app, sorts_options);
     WindOptions wind_options;
     add_wind(app, wind_options);
+    add_calibrate(app, calibrate_options);
     app.add_subcommand("info", "Backend, processor, GL renderer and libraries of this build and machine");
     app.add_subcommand("scenes", "List the shipped scenes");
     try
@@ -451,6 +474,7 @@ int run_command_line(int argc, char** argv)
     if (app.got_subcommand("explain")) return explain(explain_options);
     if (app.got_subcommand("sorts")) return study_sorts(sorts_options);
     if (app.got_subcommand("wind")) return wind(wind_options);
+    if (app.got_subcommand("calibrate")) return calibrate(calibrate_options);
     if (app.got_subcommand("info")) return info();
     return list_scenes();
 }

@@ -66,6 +66,16 @@ struct SortsOptions
     std::vector<std::filesystem::path> out;
 };
 
+/// What `spindrift calibrate` was asked for. Paths that are empty were not given.
+struct CalibrateOptions
+{
+    std::string scene = "sheet";
+    scene::SceneOverrides overrides;
+    int frames = 5;           ///< averaged at each rate
+    double most_per_s = 1e6;  ///< rates of the report's table up to here
+    std::filesystem::path csv, plot;
+};
+
 struct ExplainOptions
 {
     std::string scene;

@@ -31,7 +31,7 @@ struct Lamp
     Vec3<R> intensity{};                   ///< point, spot: W/sr; directional: irradiance in W/m2
     R range_m = infinity<R>();
     R cos_inner{1}, cos_outer{0};  ///< of the half angles of the spot's cones
-    R g{0};                        ///< Henyey-Greenstein asymmetry of flakes in this light
+    Phase<R> phase;                ///< of flakes in this light
 };
 
 /// Whether a flashing lamp is on at a moment: frac(t rate + phase) < duty.
@@ -71,10 +71,10 @@ SPINDRIFT_HD LampLight<R> lamp_light(const Lamp<R>& lamp, const Vec3<R>& place)
 
 /// Radiance that a flake sends towards `to_eye` (unit) of one lamp's light: phase function times irradiance.
 template <class R>
-SPINDRIFT_HD Vec3<R> scattered(const LampLight<R>& light, const R& g, const Vec3<R>& to_eye)
+SPINDRIFT_HD Vec3<R> scattered(const LampLight<R>& light, const Phase<R>& phase, const Vec3<R>& to_eye)
 {
     const R mu = clamp(-dot(light.towards, to_eye), number<R>(-1), number<R>(1));
-    return light.irradiance * henyey_greenstein(g, mu);
+    return light.irradiance * scattered_share(phase, mu);
 }
 
 template <class R>

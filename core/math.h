@@ -301,4 +301,32 @@ SPINDRIFT_HD void sincos_turns(R u, R& sine, R& cosine)
     cosine = select(defined, select(cosine_negative, -cosine_size, cosine_size), turn);
 }
 
+/// Angle in (-pi/2, pi/2) whose tangent is x; ±pi/2 at the infinities, NaN for NaN. |x| above 1 as pi/2 -
+/// atan(1/x), above tan(pi/8) as pi/4 + atan((x - 1)/(x + 1)), the rest by its series.
+template <class R>
+SPINDRIFT_HD R atan(R x)
+{
+    const R one = number<R>(1);
+    const R size = abs(x);
+    const auto steep = size > one;
+    const R inside = select(steep, one / size, size);
+    const auto outer = inside > number<R>(0.41421356237309504880);
+    const R r = select(outer, (inside - one) / (inside + one), inside);
+    const R r2 = r * r;
+    R tail;  // (atan(r) - r) / r
+    if constexpr (NumberTraits<R>::is_double)
+        tail = r2 * polynomial(r2, -1.0 / 3, 1.0 / 5, -1.0 / 7, 1.0 / 9, -1.0 / 11, 1.0 / 13, -1.0 / 15,
+                               1.0 / 17, -1.0 / 19, 1.0 / 21, -1.0 / 23, 1.0 / 25, -1.0 / 27, 1.0 / 29,
+                               -1.0 / 31, 1.0 / 33, -1.0 / 35, 1.0 / 37, -1.0 / 39, 1.0 / 41);
+    else
+        tail = r2 *
+               polynomial(r2, -1.0 / 3, 1.0 / 5, -1.0 / 7, 1.0 / 9, -1.0 / 11, 1.0 / 13, -1.0 / 15, 1.0 / 17);
+    const R small = fma(r, tail, r);
+    // pi/4 is not a number of R: what it lacks
+    const R low = number<R>(NumberTraits<R>::is_double ? 3.061616997868383e-17 : -2.1855694143368964e-08);
+    const R quarter = number<R>(0.78539816339744830962);
+    const R half = select(outer, quarter + (small + low), small);
+    return copysign(select(steep, (quarter + quarter) - (half - (low + low)), half), x);
+}
+
 }  // namespace spindrift

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/air.h"
 #include "core/flake.h"
 #include "core/light.h"
 #include "core/snow.h"
@@ -24,6 +25,15 @@ struct CrystalTexels
     float means[16] = {};  ///< by shape
 };
 
+/// The air between the eye and the flakes.
+struct SplatAir
+{
+    bool thick = false;  ///< false: clear, and the rest counts for nothing
+    bool glows = false;  ///< point and spot lamps light it
+    AirLayers<float> layers;
+    FlakeVolume<float> volume;
+};
+
 /// What sprites are blended with, the same for a whole frame; docs/drawing.md says what it means.
 struct SplatJob
 {
@@ -35,6 +45,7 @@ struct SplatJob
     bool plain_discs = false;
     bool additive = false;
     Vec3f ambient{};
+    SplatAir air;
     const Lamp<float>* lamps = nullptr;
     std::size_t lamp_count = 0;
     CrystalTexels crystals;

@@ -128,8 +128,8 @@ struct Colour
 
 /// One row of a sprite.
 template <bool Detailed>
-SPINDRIFT_HD void blend_row(const SplatJob& job, const PlacedSprite& s, int at, int first, int last,
-                            float centre_x, const Real& py, TilePlanes& planes)
+SPINDRIFT_HD void blend_row(const SplatJob& job, const PlacedSprite& s, const Vec3f& ambient, int at,
+                            int first, int last, float centre_x, const Real& py, TilePlanes& planes)
 {
     const Real per_px(1 / s.r_px);
     const Real ramp = to_real<Real>(lane_numbers<IntOf<Real>>());
@@ -154,9 +154,9 @@ SPINDRIFT_HD void blend_row(const SplatJob& job, const PlacedSprite& s, int at, 
             const Real shade =
                 imposter(px, py, Vec3<Real>{Real(s.right), Real(s.up), Real(s.to_viewer)}, detail);
             const Real most(static_cast<float>(kMostRadiance));
-            colour = {min(fma(colour.red, shade, Real(job.ambient.x)), most),
-                      min(fma(colour.green, shade, Real(job.ambient.y)), most),
-                      min(fma(colour.blue, shade, Real(job.ambient.z)), most)};
+            colour = {min(fma(colour.red, shade, Real(ambient.x)), most),
+                      min(fma(colour.green, shade, Real(ambient.y)), most),
+                      min(fma(colour.blue, shade, Real(ambient.z)), most)};
         }
         opacity = job.real_flakes == 1 ? min(opacity, Real(static_cast<float>(kMostOpacity)))
                                        : weighted_opacity(opacity, Real(job.real_flakes));
@@ -173,7 +173,7 @@ SPINDRIFT_HD void blend_row(const SplatJob& job, const PlacedSprite& s, int at, 
 
 template <bool Detailed>
 SPINDRIFT_HD void blend_sprite(const SplatJob& job, const TilePlace& place, const PlacedSprite& s,
-                               TilePlanes& planes)
+                               const Vec3f& ambient, TilePlanes& planes)
 {
     // Pixel centres, relative to that of the tile's first pixel.
     const float centre_x = s.x_px - static_cast<float>(place.x0) - 0.5F;
@@ -185,12 +185,12 @@ SPINDRIFT_HD void blend_sprite(const SplatJob& job, const TilePlace& place, cons
     const int first_y = inside(-floor(s.r_px - centre_y), kTilePx);
     const int last_y = inside(floor(centre_y + s.r_px) + 1, place.rows) - 1;
     for (int y = first_y; y <= last_y; ++y)
-        blend_row<Detailed>(job, s, y * TilePlanes::kStride, first_x, last_x, centre_x,
+        blend_row<Detailed>(job, s, ambient, y * TilePlanes::kStride, first_x, last_x, centre_x,
                             Real((static_cast<float>(y) - centre_y) / s.r_px), planes);
 }
 
 void blend_tile(const SplatJob& job, const SplatPicture& picture, int x0, int y0, const PlacedSprite* sprites,
-                const std::uint32_t* which, std::size_t count)
+                const Vec3f* ambients, const std::uint32_t* which, std::size_t count)
 {
     const TilePlace place{picture, x0, y0, min(kTilePx, picture.width_px - x0),
                           min(kTilePx, picture.height_px - y0)};
@@ -203,9 +203,9 @@ void blend_tile(const SplatJob& job, const SplatPicture& picture, int x0, int y0
             __builtin_prefetch(sprites + which[i + kAhead < count ? i + kAhead : i]);
             const PlacedSprite& s = sprites[which[i]];
             if (s.level > 0)
-                blend_sprite<true>(job, place, s, planes);
+                blend_sprite<true>(job, place, s, job.air.thick ? ambients[which[i]] : job.ambient, planes);
             else
-                blend_sprite<false>(job, place, s, planes);
+                blend_sprite<false>(job, place, s, job.ambient, planes);
         }
         for (int row = 0; row < place.rows; ++row) store_row(place, row, planes);
     }

@@ -51,13 +51,15 @@ struct KernelTable
                                 std::size_t last, std::uint64_t* out);
 
     /// Places the flakes [first, last) of the job's draw list.
+    /// `ambients`: the light of detailed sprites that the imposter does not shade; only in thick air.
     void (*place_sprites)(const SplatJob& job, std::size_t first, std::size_t last, PlacedSprite* sprites,
-                          TileBox* boxes);
+                          TileBox* boxes, Vec3f* ambients);
 
     /// Blends sprites[which[0]], sprites[which[1]] … into the tile whose lower left pixel is (x0, y0), and
     /// develops it.
     void (*blend_tile)(const SplatJob& job, const SplatPicture& picture, int x0, int y0,
-                       const PlacedSprite* sprites, const std::uint32_t* which, std::size_t count);
+                       const PlacedSprite* sprites, const Vec3f* ambients, const std::uint32_t* which,
+                       std::size_t count);
 };
 
 extern const KernelTable kScalarKernels;

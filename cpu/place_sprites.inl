@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Part of kernels.inl: flakes of the draw list become sprites, a pack at a time.
 
+#include "core/airlight.h"
 #include "core/sprite.h"
 
 namespace spindrift::cpu
@@ -12,8 +13,33 @@ namespace
 SPINDRIFT_HD Lamp<Real> in_every_lane(const Lamp<float>& lamp)
 {
     const auto wide = [](const Vec3f& v) { return Vec3<Real>{Real(v.x), Real(v.y), Real(v.z)}; };
-    return {lamp.kind,          wide(lamp.position_m), wide(lamp.direction), wide(lamp.intensity),
-            Real(lamp.range_m), Real(lamp.cos_inner),  Real(lamp.cos_outer), Real(lamp.g)};
+    return {lamp.kind,
+            wide(lamp.position_m),
+            wide(lamp.direction),
+            wide(lamp.intensity),
+            Real(lamp.range_m),
+            Real(lamp.cos_inner),
+            Real(lamp.cos_outer),
+            {lamp.phase.kind, Real(lamp.phase.g), Real(lamp.phase.g_back), Real(lamp.phase.back_share)}};
+}
+
+SPINDRIFT_HD Vec3<Real> in_every_lane(const Vec3f& v)
+{
+    return {Real(v.x), Real(v.y), Real(v.z)};
+}
+
+SPINDRIFT_HD AirLayers<Real> in_every_lane(const AirLayers<float>& air)
+{
+    return {Real(air.uniform_per_m), Real(air.drift_per_m), Real(air.drift_height_m), Real(air.drift_base_m)};
+}
+
+SPINDRIFT_HD FlakeVolume<Real> in_every_lane(const FlakeVolume<float>& volume)
+{
+    const FlakeShade<float>& shade = volume.shade;
+    return {in_every_lane(volume.low),
+            in_every_lane(volume.high),
+            Real(volume.flakes_per_m3),
+            {shade.area_m2, shade.integral_m3, shade.entries, shade.first_log2, shade.entries_per_log2}};
 }
 
 struct LitFlakes
@@ -29,11 +55,42 @@ SPINDRIFT_HD LitFlakes light_flakes(const SplatJob& job, const Vec3<Real>& place
     for (std::size_t i = 0; i < job.lamp_count; ++i)
     {
         const Lamp<Real> lamp = in_every_lane(job.lamps[i]);
-        const LampLight<Real> light = lamp_light(lamp, place);
-        sum.lamps = sum.lamps + scattered(light, lamp.g, to_eye);
+        LampLight<Real> light = lamp_light(lamp, place);
+        if (job.air.thick)
+            light.irradiance = light.irradiance * reaching(in_every_lane(job.air.layers), lamp, place);
+        sum.lamps = sum.lamps + scattered(light, lamp.phase, to_eye);
         sum.towards = sum.towards + light.towards * luminance(light.irradiance);
     }
     return sum;
+}
+
+/// What of a flake's light reaches the eye.
+struct SeenLight
+{
+    Real clear;          // share of its own light
+    Vec3<Real> ambient;  // ambient light as it arrives, and the glow of the air between
+};
+
+SPINDRIFT_HD SeenLight see_through_air(const SplatJob& job, const Vec3<Real>& way, const Real& distance_m)
+{
+    const Vec3<Real> ambient = in_every_lane(job.ambient);
+    if (!job.air.thick) return {Real(1), ambient};
+    const Vec3<Real> forward = in_every_lane(job.view.forward);
+    const AirPath<Real> path(in_every_lane(job.air.layers), in_every_lane(job.air.volume),
+                             in_every_lane(job.view.eye), way, dot(way, forward));
+    const Real clear = exp(-path.of_fog(distance_m));
+    // What is added covers nothing: the glow of the air is in the picture already.
+    if (job.additive) return {clear, ambient * clear};
+    Vec3<Real> even = ambient, glow{Real(0), Real(0), Real(0)};
+    for (std::size_t i = 0; i < job.lamp_count; ++i)
+    {
+        const Lamp<Real> lamp = in_every_lane(job.lamps[i]);
+        if (lamp.kind == LampKind::directional)
+            even = even + lamp.intensity * scattered_share(lamp.phase, -dot(lamp.direction, way));
+        else if (job.air.glows)
+            glow = glow + airlight_to(path, lamp, distance_m);
+    }
+    return {clear, ambient * clear + even * (Real(1) - clear) + glow};
 }
 
 /// A value of each sprite of a pack.
@@ -106,7 +163,7 @@ SPINDRIFT_HD void write_detail(const SplatJob& job, UIntOf<Real> base, const Rea
 
 /// n flakes in the slots, the rest of the slots repeats one of them.
 SPINDRIFT_HD void place_pack(const SplatJob& job, const std::int32_t* slots, std::size_t n,
-                             PlacedSprite* sprites, TileBox* boxes)
+                             PlacedSprite* sprites, TileBox* boxes, Vec3f* ambients)
 {
     const View& view = job.view;
     const auto slot = load<IntOf<Real>>(slots);
@@ -123,21 +180,26 @@ SPINDRIFT_HD void place_pack(const SplatJob& job, const std::int32_t* slots, std
     const Real per_m = Real(focal) / z;
     const Real x = fma(along(d, view.right), per_m, Real(0.5F * static_cast<float>(view.width_px)));
     const Real y = fma(along(d, view.up), per_m, Real(0.5F * static_cast<float>(view.height_px)));
-    write_boxes(x, y, size.radius_px, drawn, view, n, boxes);
+    Real opacity = size.opacity;
+    if (job.air.thick) opacity = opacity * kept_of_tiny(Real(2) * radius_m * per_m);
+    write_boxes(x, y, size.radius_px, drawn && opacity > Real(0), view, n, boxes);
 
-    const Vec3<Real> to_eye = d * (Real(-1) / sqrt(dot(d, d)));
-    const LitFlakes lit = light_flakes(job, p, to_eye);
+    const Real distance_m = sqrt(dot(d, d));
+    const Vec3<Real> to_eye = d * (Real(-1) / distance_m);
+    LitFlakes lit = light_flakes(job, p, to_eye);
+    const SeenLight seen = see_through_air(job, to_eye * Real(-1), distance_m);
+    lit.lamps = lit.lamps * seen.clear;
     const auto detailed = size.radius_px > Real(kDetailFrom_px) && MaskOf<Real>(!job.plain_discs);
-    const auto whole = [&](const Real& lamps, float ambient)
-    { return select(detailed, lamps, min(lamps + Real(ambient), Real(static_cast<float>(kMostRadiance)))); };
+    const auto whole = [&](const Real& lamps, const Real& ambient)
+    { return select(detailed, lamps, min(lamps + ambient, Real(static_cast<float>(kMostRadiance)))); };
 
     const UIntOf<Real> base = flake_base(job.sizes.seed, id);
     const LaneWords shapes(flake_trait(base, Trait::shape));
     const Lanes xs(x), ys(y), rs(size.radius_px), zs(z);
-    const Lanes opacities(size.opacity * Real(job.plain_discs ? 1 : job.flake_opacity));
+    const Lanes opacities(opacity * Real(job.plain_discs ? 1 : job.flake_opacity));
     const Lanes fades(Real(1) / max(radius_m, Real(static_cast<float>(kThinnestFade_m))));
-    const Lanes reds(whole(lit.lamps.x, job.ambient.x)), greens(whole(lit.lamps.y, job.ambient.y)),
-        blues(whole(lit.lamps.z, job.ambient.z));
+    const Lanes reds(whole(lit.lamps.x, seen.ambient.x)), greens(whole(lit.lamps.y, seen.ambient.y)),
+        blues(whole(lit.lamps.z, seen.ambient.z));
     const std::uint32_t large = mask_bits(detailed);
     for (std::size_t l = 0; l < n; ++l)
     {
@@ -148,11 +210,17 @@ SPINDRIFT_HD void place_pack(const SplatJob& job, const std::int32_t* slots, std
                       0,          0,         1,           0,          shape,
                       0};
     }
-    if (large != 0) write_detail(job, base, size.radius_px, lit.towards, large, n, sprites);
+    if (large == 0) return;
+    if (job.air.thick)
+    {
+        const Lanes red(seen.ambient.x), green(seen.ambient.y), blue(seen.ambient.z);
+        for (std::size_t l = 0; l < n; ++l) ambients[l] = {red.v[l], green.v[l], blue.v[l]};
+    }
+    write_detail(job, base, size.radius_px, lit.towards, large, n, sprites);
 }
 
 void place_sprites(const SplatJob& job, std::size_t first, std::size_t last, PlacedSprite* sprites,
-                   TileBox* boxes)
+                   TileBox* boxes, Vec3f* ambients)
 {
     for (std::size_t i = first; i < last; i += kWidth)
     {
@@ -160,7 +228,7 @@ void place_sprites(const SplatJob& job, std::size_t first, std::size_t last, Pla
         std::int32_t slots[kWidth];
         for (std::size_t l = 0; l < kWidth; ++l)
             slots[l] = static_cast<std::int32_t>(job.pairs[l < n ? i + l : i] & 0xFFFFFFFFU);
-        place_pack(job, slots, n, sprites + i, boxes + i);
+        place_pack(job, slots, n, sprites + i, boxes + i, job.air.thick ? ambients + i : nullptr);
     }
 }
 

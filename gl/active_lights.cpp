@@ -60,12 +60,18 @@ float cosine_deg(double degrees)
     return static_cast<float>(std::cos(degrees * std::numbers::pi / 180.0));
 }
 
+Phase<float> phase_of(const scene::Light& light)
+{
+    return {light.phase, static_cast<float>(light.g), static_cast<float>(light.g_back),
+            static_cast<float>(light.back_share)};
+}
+
 Lamp<float> lamp_of(const scene::Light& light, const Vec3f& position_m)
 {
     return {scene::lamp_kind(light.kind),      position_m,
             to_float(light.direction),         {light.intensity.r, light.intensity.g, light.intensity.b},
             static_cast<float>(light.range_m), cosine_deg(light.inner_cone_deg),
-            cosine_deg(light.outer_cone_deg),  static_cast<float>(light.g)};
+            cosine_deg(light.outer_cone_deg),  phase_of(light)};
 }
 
 }  // namespace
@@ -75,8 +81,18 @@ PackedLight pack(const Lamp<float>& lamp)
     PackedLight packed;
     const Vec3f& way = lamp.direction;
     packed.direction = {way.x, way.y, way.z, 0};
-    packed.intensity = {lamp.intensity.x, lamp.intensity.y, lamp.intensity.z, lamp.g};
+    packed.intensity = {lamp.intensity.x, lamp.intensity.y, lamp.intensity.z, lamp.phase.g};
     packed.limits = {1, 0, 0, 0};
+    if (lamp.phase.kind == PhaseKind::double_lobe)
+    {
+        packed.limits[2] = lamp.phase.back_share;
+        packed.limits[3] = lamp.phase.g_back;
+    }
+    if (lamp.phase.kind == PhaseKind::schlick)
+    {
+        packed.limits[2] = -1;
+        packed.intensity[3] = schlick_k(lamp.phase.g);
+    }
     if (lamp.kind == LampKind::directional)
     {
         packed.place = {-way.x, -way.y, -way.z, 0};
@@ -119,6 +135,8 @@ ActiveLights active_lights(const scene::Scene& scene, std::span<const scene::Lig
     };
     for (const scene::Light& light : scene.lights) consider(light);
     for (const scene::Light& light : model_lights) consider(light);
+    if (scene.render.scattering == scene::Scattering::legacy)
+        for (Lamp<float>& lamp : active.lamps) lamp.phase = turned_round(lamp.phase);
     return active;
 }
 

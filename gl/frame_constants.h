@@ -32,6 +32,7 @@ enum Binding : unsigned
     kFewLights = 1,
     kExposure = 2,
     kBloomCommand = 3,
+    kAirBlock = 4,
     kXArray = 0,
     kYArray = 1,
     kZArray = 2,

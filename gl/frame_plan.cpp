@@ -4,12 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
+#include "core/airlight.h"
+#include "core/visibility.h"
 #include "gl/active_lights.h"
 #include "gl/bloom_shape.h"
 #include "gl/pass_cost.h"
+#include "scene/air.h"
 
 namespace spindrift::gl
 {
@@ -18,6 +22,9 @@ namespace
 {
 
 using scene::Blending;
+
+/// Air that lets more than this share through to the far plane is left out.
+constexpr double kClearEnough = 0.995;
 using scene::FlakePath;
 
 /// Everything that the decisions look at, gathered once.
@@ -30,6 +37,7 @@ struct Facts
     bool has_solids;
     bool blended;  // alpha is used
     GlKind gl;
+    double far_clear;  // least transmittance of the air up to the far plane
 
     Facts(const scene::Scene& s, const View& view, const FrameStats& stats, double time_s,
           std::span<const scene::Light> model_lights, GlKind kind)
@@ -39,7 +47,8 @@ struct Facts
           has_flakes(stats.counts.alive > 0),
           has_solids(s.ground.kind != scene::GroundKind::none || !s.boxes.empty() || !s.models.empty()),
           blended(s.render.blending != Blending::opaque),
-          gl(kind)
+          gl(kind),
+          far_clear(scene::far_transmittance(s, view))
     {
     }
 
@@ -131,6 +140,43 @@ PlannedPass plan_fade(const Facts& facts)
     if (facts.in_tiles()) return left_out("fade", "the tiles look at the depth of each pixel");
     return runs("fade", "flakes fade where they cut into the scene; hidden ones are dropped early", "depth",
                 "copy of depth, depth tiles");
+}
+
+PlannedPass plan_fog(const Facts& facts)
+{
+    const scene::AirSettings& air = facts.scene.air;
+    if (facts.far_clear == 1) return left_out("fog", "the air is clear but for the flakes that are drawn");
+    if (facts.far_clear > kClearEnough)
+        return left_out("fog", fmt::format("the air lets {:.2f} % through up to the far plane (above {:g} %)",
+                                           100 * facts.far_clear, 100 * kClearEnough));
+    const double extinction = scene::uniform_extinction(facts.scene);
+    std::string reason = facts.scene.air.law == scene::FogLaw::legacy
+                             ? "the report's line, visibility - distance / 600 m"
+                             : "takes over where flakes end or are too small to draw";
+    if (extinction > 0)
+        reason = fmt::format("extinction {:.3g} 1/m, visibility {:.3g} m ({}); {}", extinction,
+                             visibility_of_extinction(extinction, air.contrast),
+                             air.contrast == VisibilityContrast::five_percent ? "5 %" : "2 %", reason);
+    if (std::isfinite(air.drift_visibility_m))
+        reason += fmt::format("; drift of {:g} m visibility, {:g} m high", air.drift_visibility_m,
+                              air.drift_height_m);
+    return runs("fog", reason, "depth, lights", "picture, copy of depth");
+}
+
+PlannedPass plan_airlight(const Facts& facts)
+{
+    if (facts.far_clear > kClearEnough) return left_out("airlight", "no fog that could glow");
+    if (!facts.scene.air.airlight || facts.scene.air.law == scene::FogLaw::legacy)
+        return left_out("airlight", "the scene asks for none");
+    const auto lamps =
+        std::count_if(facts.lights.lamps.begin(), facts.lights.lamps.end(),
+                      [](const Lamp<float>& lamp) { return lamp.kind != LampKind::directional; });
+    if (lamps == 0)
+        return left_out("airlight", "no point or spot lamp shines (the sun is in the fog's own light)");
+    return runs("airlight",
+                fmt::format("{} lamp{} glow{} in the fog, {} points each", lamps, lamps == 1 ? "" : "s",
+                            lamps == 1 ? "s" : "", kAirlightPoints),
+                "copy of depth, lights", "picture");
 }
 
 std::string_view blending_name(Blending blending)
@@ -312,6 +358,8 @@ FramePlan plan_frame(const scene::Scene& scene, const View& view, const FrameSta
     plan.passes.push_back(plan_lights(facts));
     plan.passes.push_back(plan_scene(facts));
     plan.passes.push_back(runs("sky", "fills what the scene leaves free", "depth", "picture"));
+    plan.passes.push_back(plan_fog(facts));
+    plan.passes.push_back(plan_airlight(facts));
     plan.passes.push_back(plan_fade(facts));
     plan.passes.push_back(plan_flakes(facts));
     plan.passes.push_back(plan_tiles(facts));

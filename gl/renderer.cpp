@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "gl/active_lights.h"
+#include "gl/air_pass.h"
 #include "gl/bloom_pass.h"
 #include "gl/crystal_texture.h"
 #include "gl/exposure_pass.h"
@@ -29,6 +30,12 @@ namespace spindrift::gl
 
 namespace
 {
+
+AirKind air_kind(const FramePlan& plan)
+{
+    if (plan.runs("airlight")) return AirKind::glowing;
+    return plan.runs("fog") ? AirKind::thick : AirKind::clear;
+}
 
 glm::vec4 vec4(const Vec3f& v, float w)
 {
@@ -52,6 +59,7 @@ struct Renderer::Impl
     Picture picture;
     ScenePass scene_pass;
     FullScreenPass sky, depth_tiles;
+    AirPass air;
     FlakePass flakes;
     ExposurePass exposure;
     std::optional<BloomPass> bloom;  ///< made when a plan first asks for it
@@ -77,6 +85,7 @@ struct Renderer::Impl
           scene_pass(s, geometry),
           sky("sky.vert", "sky.frag"),
           depth_tiles("full_screen.vert", "depth_tiles.frag"),
+          air(s),
           flakes(s.render, static_cast<double>(w.snow.weight), buffers),
           exposure(s.render, width, height),
           tone(s),
@@ -94,8 +103,11 @@ struct Renderer::Impl
     Impl& operator=(const Impl&) = delete;
 
     void upload_lights(const std::vector<Lamp<float>>& lamps);
+    /// How often flakes get the ambient light: once; as the report prints it, for each lamp.
+    std::uint32_t flake_ambient_times(std::size_t lights) const;
     FrameConstants constants(const View& view, std::size_t lights, double time_s) const;
     void draw_solid(const FramePlan& plan, const View& view, std::size_t lights, double time_s);
+    void draw_air(const FramePlan& plan, std::size_t lights);
     void draw_flakes(const FramePlan& plan, const View& view, const DrawList& list, std::size_t lights);
     void prepare_depth();
     void develop(const FramePlan& plan, double time_s);
@@ -127,6 +139,12 @@ void Renderer::Impl::upload_lights(const std::vector<Lamp<float>>& lamps)
     glBindBufferBase(GL_UNIFORM_BUFFER, kFewLights, light_buffer.name());
 }
 
+std::uint32_t Renderer::Impl::flake_ambient_times(std::size_t lights) const
+{
+    const bool legacy = scene.render.scattering == scene::Scattering::legacy;
+    return legacy ? static_cast<std::uint32_t>(std::max<std::size_t>(lights, 1)) : 1;
+}
+
 FrameConstants Renderer::Impl::constants(const View& view, std::size_t lights, double time_s) const
 {
     const auto width = static_cast<float>(view.width_px);
@@ -134,6 +152,7 @@ FrameConstants Renderer::Impl::constants(const View& view, std::size_t lights, d
     const float tan_y = view.tan_half_fov_y;
     const float guard = std::round(view.guard_px);
     const auto scale = static_cast<float>(scene.render.flake_scale);
+    const std::uint32_t ambient_times = flake_ambient_times(lights);
     FrameConstants c;
     c.eye_time = vec4(view.eye, static_cast<float>(time_s));
     c.right_tan = vec4(view.right, tan_y * width / height);
@@ -147,7 +166,7 @@ FrameConstants Renderer::Impl::constants(const View& view, std::size_t lights, d
     c.sprite = {sprite_limits(view).largest_px, width / (width + 2 * guard), height / (height + 2 * guard),
                 guard};
     c.counts = {static_cast<std::uint32_t>(lights), static_cast<std::uint32_t>(seed),
-                static_cast<std::uint32_t>(masks.size()), 0};
+                static_cast<std::uint32_t>(masks.size()), ambient_times};
     c.picture = {width, height, 0, 0};
     for (std::size_t i = 0; i < masks.size(); ++i)
         c.mask_means[i / 4][i % 4] = static_cast<float>(masks[i].mean);
@@ -165,13 +184,28 @@ void Renderer::Impl::draw_solid(const FramePlan& plan, const View& view, std::si
     glDepthMask(GL_TRUE);
     constexpr GLfloat far_depth = 0;
     glClearNamedFramebufferfv(picture.linear_target.name(), GL_DEPTH, 0, &far_depth);
-    if (plan.runs("scene")) timed("scene", [&] { scene_pass.draw(view.eye, lights, time_s); });
+    if (plan.runs("scene"))
+        timed("scene", [&] { scene_pass.draw(view.eye, lights, time_s, air_kind(plan)); });
     glDepthMask(GL_FALSE);
     if (plan.runs("sky"))
     {
         glDepthFunc(GL_GEQUAL);
         timed("sky", [&] { sky.draw(); });
     }
+    draw_air(plan, lights);
+}
+
+void Renderer::Impl::draw_air(const FramePlan& plan, std::size_t lights)
+{
+    if (!plan.runs("fog")) return;
+    timed("fog",
+          [&]
+          {
+              picture.copy_depth();
+              air.draw_fog(picture.depth_copy.name(), lights);
+          });
+    if (plan.runs("airlight"))
+        timed("airlight", [&] { air.draw_airlight(picture.depth_copy.name(), lights); });
 }
 
 void Renderer::Impl::draw_flakes(const FramePlan& plan, const View& view, const DrawList& list,
@@ -181,7 +215,10 @@ void Renderer::Impl::draw_flakes(const FramePlan& plan, const View& view, const 
     if (fades) timed("fade", [&] { prepare_depth(); });
     if (!plan.runs("flakes")) return;
     glBindTextureUnit(kMasks, mask_texture.name());
-    timed("flakes", [&] { flakes.draw({view, list, fades ? picture.depth_copy.name() : 0, lights}); });
+    timed("flakes",
+          [&] {
+              flakes.draw({view, list, fades ? picture.depth_copy.name() : 0, lights, air_kind(plan)});
+          });
     if (!fenced) return;
     if (flakes_read != nullptr) glDeleteSync(flakes_read);
     flakes_read = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
@@ -250,13 +287,16 @@ void Renderer::draw(const FramePlan& plan, const View& view, const DrawList& fla
     glNamedBufferSubData(m.frame_block.name(), 0, sizeof(constants), &constants);
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBlock, m.frame_block.name());
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    m.air.prepare(plan, view, time_s);
     m.draw_solid(plan, view, lights.size(), time_s);
     m.draw_flakes(plan, view, flakes, lights.size());
     const bool in_tiles = plan.runs("tiles");
     if (in_tiles)
     {
         const scene::Colour& ambient = m.scene.sky.ambient;
-        m.draw_tiles(plan, {view, flakes, lights, {ambient.r, ambient.g, ambient.b}, time_s});
+        const auto times = static_cast<float>(m.flake_ambient_times(lights.size()));
+        m.draw_tiles(plan, {view, flakes, lights, Vec3f{ambient.r, ambient.g, ambient.b} * times,
+                            m.air.before_flakes(), time_s});
     }
     if (!in_tiles || !plan.tone_in_tiles) m.develop(plan, time_s);
 }

@@ -103,7 +103,7 @@ std::vector<ScenePass::Draw> ScenePass::near_to_far(const Vec3f& eye, double tim
     return draws;
 }
 
-void ScenePass::draw(const Vec3f& eye, std::size_t lights, double time_s) const
+void ScenePass::draw(const Vec3f& eye, std::size_t lights, double time_s, AirKind air) const
 {
     if (bodies_.empty()) return;
     glDepthFunc(GL_GREATER);
@@ -111,7 +111,7 @@ void ScenePass::draw(const Vec3f& eye, std::size_t lights, double time_s) const
     {
         const MeshCluster& cluster = *draw.cluster;
         const scene::Material& material = draw.body->materials.at(static_cast<std::size_t>(cluster.material));
-        const GLuint program = (shines(material) ? shiny_ : matt_).for_lights(lights);
+        const GLuint program = (shines(material) ? shiny_ : matt_).in(air).for_lights(lights);
         glUseProgram(program);
         glProgramUniform3f(program, kOffset, draw.offset_m.x, draw.offset_m.y, draw.offset_m.z);
         set_material(program, material);

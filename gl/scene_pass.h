@@ -18,7 +18,7 @@ class ScenePass
 {
   public:
     ScenePass(const scene::Scene& scene, const scene::Geometry& geometry);
-    void draw(const Vec3f& eye, std::size_t lights, double time_s) const;
+    void draw(const Vec3f& eye, std::size_t lights, double time_s, AirKind air) const;
 
   private:
     struct Body
@@ -41,7 +41,7 @@ class ScenePass
     Vec3f offset_of(const Body& body, double time_s) const;
     Body make_body(const scene::Scene& scene, const scene::Mesh& mesh) const;
 
-    LitProgram matt_, shiny_;
+    ByAir matt_, shiny_;
     std::vector<Body> bodies_;
     scene::DomainSettings domain_;
 };

@@ -93,6 +93,7 @@ SplatJob TilePass::job(const Frame& frame) const
     job.plain_discs = settings_.sprite == scene::Sprite::point;
     job.additive = settings_.blending == scene::Blending::additive;
     job.ambient = frame.ambient;
+    job.air = frame.air;
     job.lamps = frame.lamps.data();
     job.lamp_count = frame.lamps.size();
     job.crystals = crystals_;

@@ -29,7 +29,8 @@ class TilePass
         const View& view;
         const DrawList& list;
         const std::vector<Lamp<float>>& lamps;
-        Vec3f ambient;
+        Vec3f ambient;  ///< of flakes
+        SplatAir air;
         double time_s;
     };
     /// The light alone, into picture.linear.

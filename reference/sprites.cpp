@@ -32,13 +32,28 @@ Rgb radiance(const Sprite& sprite, const scene::RenderSettings& render, double p
     if (render.blending != scene::Blending::opaque && render.sprite == scene::Sprite::crystal)
         shade = imposter(px, py, sprite.light.towards, sprite_detail(sprite.r));
     const Rgb sum = sprite.light.ambient + sprite.light.lamps * shade;
-    return {std::min(sum.x, kMostRadiance), std::min(sum.y, kMostRadiance), std::min(sum.z, kMostRadiance)};
+    const Rgb own{std::min(sum.x, kMostRadiance), std::min(sum.y, kMostRadiance),
+                  std::min(sum.z, kMostRadiance)};
+    return own * sprite.air.clear + sprite.air.glow;
+}
+
+/// Of the air before a flake `d` away. Beyond the flakes' volume alone begins the report's fog.
+AirView flake_air(const scene::Scene& scene, const scene::Air& air, const Lighting& lighting,
+                  const View& view, const Vec3d& d)
+{
+    if (air.law == scene::FogLaw::legacy) return {};
+    const double distance_m = std::sqrt(dot(d, d));
+    AirView seen = air_before(scene, air, lighting, view, d * (1 / distance_m), distance_m);
+    // What is added covers nothing: the fog before it is in the picture already.
+    if (scene.render.blending == scene::Blending::additive) seen.glow = {0, 0, 0};
+    return seen;
 }
 
 }  // namespace
 
 std::vector<Sprite> make_sprites(const scene::Scene& scene, const World& world, const FlakeView& flakes,
-                                 std::size_t used, const View& view, const Lights& lights, double time_s)
+                                 std::size_t used, const View& view, const scene::Air& air,
+                                 const Lighting& lighting, double time_s)
 {
     const Vec3d eye = wide(view.eye), right = wide(view.right), up = wide(view.up),
                 forward = wide(view.forward);
@@ -58,13 +73,16 @@ std::vector<Sprite> make_sprites(const scene::Scene& scene, const World& world, 
         sprite.x = 0.5 * view.width_px + dot(d, right) / sprite.z * focal_px;
         sprite.y = 0.5 * view.height_px - dot(d, up) / sprite.z * focal_px;
         set_size(sprite, scene.render, view, sizes.diameter_m<double>(sprite.id));
+        if (air.tiny_flakes_fade && scene.render.blending != scene::Blending::opaque)
+            sprite.opacity *= kept_of_tiny(2 * sprite.radius_m * focal_px / sprite.z);
         if (sprite.x < -sprite.r || sprite.y < -sprite.r || sprite.x > view.width_px + sprite.r ||
             sprite.y > view.height_px + sprite.r)
             continue;
         const FlakeTurn turn = flake_turn(world.seed, sprite.id, scene::kCrystalShapes);
         sprite.shape = static_cast<int>(turn.shape);
         sincos_turns(turn.turns_at(time_s), sprite.sine, sprite.cosine);
-        sprite.light = flake_light(lights, scene.sky, view, at);
+        sprite.light = flake_light(lighting, view, at);
+        sprite.air = flake_air(scene, air, lighting, view, d);
         sprites.push_back(sprite);
     }
     std::sort(sprites.begin(), sprites.end(),

@@ -16,6 +16,7 @@ void describe_scene(Section& root, Scene& scene);
 void describe_air(Section& root, Scene& scene);          ///< snow, wind
 void describe_emitters(Section& root, Scene& scene);     ///< after domain, particles and vehicles
 void describe_solids(Section& root, Scene& scene);       ///< ground, boxes, models, voxels
+void describe_fog(Section& root, Scene& scene);          ///< air; after emitters and ground
 void describe_looks(Section& root, Scene& scene);        ///< lights, sky, camera, render, bloom, display
 void describe_development(Section& root, Scene& scene);  ///< bloom, display: from light to what is shown
 

@@ -9,8 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "core/phase.h"
 #include "core/tone.h"
 #include "core/vec.h"
+#include "core/visibility.h"
 #include "core/world.h"
 
 namespace spindrift::scene
@@ -31,6 +33,45 @@ struct DomainSettings
     Vec3d min_m{0, 0, 0};
     Vec3d max_m{0, 0, 0};
     OnLeave on_leave = OnLeave::respawn;
+};
+
+/// By what the extinction of the air is stated.
+enum class AirSource
+{
+    clear,  ///< flakes alone hide what lies behind them
+    visibility,
+    snowfall,       ///< rate and crystals of [snow]
+    concentration,  ///< snow in the air
+    particle_rate,  ///< the report's experiment
+    flakes,         ///< as much as the drawn flakes of the sky hide at full size
+};
+
+/// How the report's particles per second become a grey value.
+enum class ReportFit
+{
+    cover,   ///< one parameter, monotone
+    legacy,  ///< as printed, clamped
+};
+
+enum class FogLaw
+{
+    exponential,
+    legacy,  ///< the report's visibility - distance / 600 m, clamped
+};
+
+struct AirSettings
+{
+    AirSource source = AirSource::clear;
+    double visibility_m = 1000;
+    VisibilityContrast contrast = VisibilityContrast::five_percent;
+    double snow_g_m3 = 0.3;
+    double particles_per_s = 1e5;
+    ReportFit fit = ReportFit::cover;
+    FogLaw law = FogLaw::exponential;
+    double drift_visibility_m = std::numeric_limits<double>::infinity();  ///< of the drift alone, at its base
+    double drift_height_m = 1;  ///< over which the drift falls to 1/e
+    double drift_base_m = 0;    ///< world frame
+    bool airlight = true;       ///< lamps glow in the fog
 };
 
 enum class WindSource
@@ -150,8 +191,11 @@ struct Light
     Colour intensity;  ///< point, spot: radiant intensity in W/sr; directional: irradiance in W/m2; HDR
     double range_m = std::numeric_limits<double>::infinity();
     double inner_cone_deg = 20, outer_cone_deg = 30;  ///< half angles
-    double g = 0.77;      ///< Henyey-Greenstein asymmetry of flakes in this light, in (-1, 1)
-    std::string vehicle;  ///< not empty: position and direction are relative to it
+    PhaseKind phase = PhaseKind::henyey_greenstein;
+    double g = 0.77;          ///< asymmetry of flakes in this light, in (-1, 1)
+    double g_back = -0.3;     ///< double_lobe: of the second lobe
+    double back_share = 0.1;  ///< double_lobe: share of the light that it takes
+    std::string vehicle;      ///< not empty: position and direction are relative to it
 };
 
 struct SkySettings
@@ -187,6 +231,13 @@ enum class Blending
     opaque,    ///< plain points with depth, no sort
 };
 
+/// How flakes scatter light.
+enum class Scattering
+{
+    physical,
+    legacy,  ///< as the report prints it: the angle's sign turned round, ambient light once per lamp
+};
+
 enum class Sprite
 {
     crystal,  ///< Gaussian transparency inside a grown crystal shape
@@ -209,6 +260,7 @@ struct RenderSettings
     double warm_up_s = 0;  ///< simulated before the first frame
     Blending blending = Blending::over;
     Sprite sprite = Sprite::crystal;
+    Scattering scattering = Scattering::physical;
     FlakePath flake_path = FlakePath::automatic;
     std::string sort = "auto";
     int depth_bits = 32;
@@ -261,6 +313,7 @@ struct Scene
     std::uint32_t reorder_every_steps = 0;  ///< 0: never
     Snow snow;
     WindSettings wind;
+    AirSettings air;
     std::vector<EmitterSettings> emitters;
     GroundSettings ground;
     std::vector<BoxSettings> boxes;

@@ -24,6 +24,7 @@ std::string_view unit_of(std::string_view name)
                                                                         {"_w_sr", "W/sr"},
                                                                         {"_w_m2", "W/m²"},
                                                                         {"_mm_h", "mm/h"},
+                                                                        {"_g_m3", "g/m³"},
                                                                         {"_m_s", "m/s"},
                                                                         {"_per_s", "1/s"},
                                                                         {"_hz", "Hz"},

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The lights that are on at the display time of the frame; gl/active_lights.h packs them.
+#ifdef AIR
+#include "air.glsl"
+#endif
 struct Light
 {
     vec4 place;      // point, spot: position (m), 1; directional: the unit vector towards the light, 0
     vec4 direction;  // the way it travels; factor of the spot term
-    vec4 intensity;  // W/sr or W/m2; asymmetry g
-    vec4 limits;     // offset of the spot term, 1 / range, 0, 0
+    vec4 intensity;  // W/sr or W/m2; asymmetry g (Schlick: k)
+    vec4 limits;     // offset of the spot term, 1 / range, share of the second lobe (-1: Schlick), its g
 };
 // Up to eight lights are read as uniforms by constant index, which software GL does an order faster; more as a buffer.
 #ifdef LIGHTS
@@ -41,10 +44,25 @@ vec3 irradiance(Light light, vec3 p, out vec3 to_light)
 
 // Henyey-Greenstein (Astrophys. J. 93, 1941) in the form that is stable near |g| = 1 for both signs, as core/phase.h has it;
 // mu = 1: straight on.
-float phase(float g, float mu)
+float henyey_greenstein(float g, float mu)
 {
     float size = abs(g);
     float rest = 1.0 - size;
     float d = max(rest * rest + 2.0 * size * (1.0 - (g < 0.0 ? -mu : mu)), 1e-10);
     return rest * (1.0 + size) / (12.566370614 * d * sqrt(d));
+}
+
+// Schlick's stand-in (Computer Graphics Forum 12, 1993).
+float schlick(float k, float mu)
+{
+    float away = 1.0 - k * mu;
+    return (1.0 - k * k) / (12.566370614 * away * away);
+}
+
+float phase(Light light, float mu)
+{
+    if (light.limits.z < 0.0) return schlick(light.intensity.w, mu);
+    float ahead = henyey_greenstein(light.intensity.w, mu);
+    if (light.limits.z == 0.0) return ahead;
+    return mix(ahead, henyey_greenstein(light.limits.w, mu), light.limits.z);
 }

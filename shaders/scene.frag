@@ -23,6 +23,9 @@ void main()
 #endif
         vec3 to_light;
         vec3 e = irradiance(lamp, place, to_light);
+#ifdef AIR
+        if (lamp.place.w != 0.0) e *= reaching(lamp.place.xyz + eye_time.xyz, place + eye_time.xyz);
+#endif
         float facing = max(dot(n, to_light), 0.0);
         lit += e * (facing * 0.318309886);
 #ifdef SHINY

@@ -261,6 +261,20 @@ TEST_F(Drawing, PassesDrawWholeFrames)
     EXPECT_EQ(list.at("passes_per_frame"), 12);
 }
 
+TEST_F(Drawing, CalibratesOnTheBlackSheetAndRefusesOtherScenes)
+{
+    const Finished run = run_command({"calibrate", "--most", "500", "--frames", "1", "--csv",
+                                      in_folder("c.csv"), "--plot", in_folder("c.svg")});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    EXPECT_THAT(run.output, testing::HasSubstr("RMS residual"));
+    EXPECT_THAT(read(in_folder("c.csv")), testing::StartsWith("particles_per_s,grey,"));
+    EXPECT_THAT(read(in_folder("c.csv")), testing::HasSubstr("\n500,"));
+    EXPECT_THAT(read(in_folder("c.svg")), testing::EndsWith("</svg>\n"));
+    const Finished other = run_command({"calibrate", small_scene()});
+    EXPECT_EQ(other.exit_code, 2);
+    EXPECT_THAT(other.error, testing::HasSubstr("use a scene like sheet"));
+}
+
 }  // namespace
 
 }  // namespace spindrift::test

@@ -127,6 +127,8 @@ std::vector<Row<T, Wide>> rows()
          1.5},
         {"cos", "all turns", -all, all, [](T x) { return cosine(x); }, [](Wide x) { return turned(x, true); },
          1.5},
+        {"atan", "all", -all, all, [](T x) { return spindrift::atan(x); },
+         [](Wide x) { return std::atan(x); }, coarse ? 2.0 : 2.2},
         {"sqrt", "all >= 0", T{0}, all, [](T x) { return spindrift::sqrt(x); },
          [](Wide x) { return std::sqrt(x); }, 0.5001},
     };

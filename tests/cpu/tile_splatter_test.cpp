@@ -32,6 +32,7 @@ struct Splash
     std::vector<std::uint16_t> rgba;
     std::vector<std::uint8_t> display;
     std::vector<Lamp<float>> lamps;
+    std::vector<float> shade_area_m2, shade_integral_m3;
     SplatJob job;
 
     explicit Splash(std::size_t flakes) : depth(kPixels), rgba(kPixels * 4), display(kPixels * 4)
@@ -58,8 +59,30 @@ struct Splash
         for (std::size_t i = 0; i < 4096 + 1024 + 3; ++i)
             texels.push_back(static_cast<std::uint8_t>(random()));
         for (std::size_t i = 0; i < 0x8000; ++i) tone.push_back(static_cast<std::uint8_t>(i >> 7));
-        lamps = {{LampKind::point, {2, 9, 1}, {0, 0, -1}, {80, 60, 20}, 40, 1, 0, 0.7F},
-                 {LampKind::directional, {}, {0.6F, 0, -0.8F}, {0.2F, 0.3F, 0.4F}, 1, 1, 0, -0.2F}};
+        lamps = {{LampKind::point,
+                  {2, 9, 1},
+                  {0, 0, -1},
+                  {80, 60, 20},
+                  40,
+                  1,
+                  0,
+                  {PhaseKind::henyey_greenstein, 0.7F}},
+                 {LampKind::directional,
+                  {},
+                  {0.6F, 0, -0.8F},
+                  {0.2F, 0.3F, 0.4F},
+                  1,
+                  1,
+                  0,
+                  {PhaseKind::schlick, -0.2F}},
+                 {LampKind::spot,
+                  {-3, 12, 4},
+                  {0.6F, 0, -0.8F},
+                  {90, 90, 90},
+                  30,
+                  0.9F,
+                  0.7F,
+                  {PhaseKind::double_lobe, 0.8F, -0.3F, 0.2F}}};
         describe();
     }
 
@@ -82,6 +105,21 @@ struct Splash
         job.count = pairs.size();
         job.lamps = lamps.data();
         job.lamp_count = lamps.size();
+    }
+
+    /// Fog and the lamps' glow in it before the flakes, whose volume begins behind the eye and ends before
+    /// the last.
+    void thicken()
+    {
+        for (int i = 0; i < 64; ++i)
+        {
+            shade_area_m2.push_back(1e-3F * static_cast<float>(i % 9));
+            shade_integral_m3.push_back(1e-3F * static_cast<float>(i));
+        }
+        job.air.thick = job.air.glows = true;
+        job.air.layers = {0.05F, 0.1F, 0.7F, -1};
+        job.air.volume = {
+            {-4, -1, -3}, {5, 14, 3}, 2, {shade_area_m2.data(), shade_integral_m3.data(), 64, -3, 8}};
     }
 
     void splat(const CpuOptions& options)
@@ -109,6 +147,22 @@ TEST(TileSplatter, GivesTheSameBitsWithAnyThreadsAndInstructions)
                 EXPECT_EQ(other.rgba, truth.rgba) << simd_name(simd) << ", " << threads << " threads";
                 EXPECT_EQ(other.display, truth.display) << simd_name(simd) << ", " << threads << " threads";
             }
+    }
+}
+
+TEST(TileSplatter, GivesTheSameBitsInThickAir)
+{
+    Splash clear(3000), truth(3000);
+    clear.splat({1, Simd::scalar});
+    truth.thicken();
+    truth.splat({1, Simd::scalar});
+    EXPECT_NE(truth.rgba, clear.rgba);
+    for (const Simd simd : available_simd())
+    {
+        Splash other(3000);
+        other.thicken();
+        other.splat({3, simd});
+        EXPECT_EQ(other.rgba, truth.rgba) << simd_name(simd);
     }
 }
 

@@ -143,6 +143,39 @@ TEST_F(PlanTest, LampsOutOfRangeAreLeftOut)
     EXPECT_TRUE(plan().runs("lights")) << "directional lights have no range";
 }
 
+TEST_F(PlanTest, ClearAirNeedsNoFog)
+{
+    EXPECT_FALSE(plan().runs("fog"));
+    EXPECT_NE(reason("fog").find("clear"), std::string::npos);
+    EXPECT_FALSE(plan().runs("airlight"));
+    scene.air.source = scene::AirSource::visibility;
+    scene.air.visibility_m = 1e6;
+    EXPECT_FALSE(plan().runs("fog"));
+    EXPECT_NE(reason("fog").find("above 99.5 %"), std::string::npos) << reason("fog");
+    scene.air.visibility_m = 500;
+    EXPECT_TRUE(plan().runs("fog"));
+    EXPECT_NE(reason("fog").find("500 m (5 %)"), std::string::npos) << reason("fog");
+}
+
+TEST_F(PlanTest, OnlyLampsThatShineGlowInTheFog)
+{
+    scene.air.source = scene::AirSource::visibility;
+    scene.air.visibility_m = 100;
+    EXPECT_TRUE(plan().runs("airlight"));
+    scene.lights.front().on = false;
+    EXPECT_FALSE(plan().runs("airlight"));
+    scene.lights.front().on = true;
+    scene.lights.front().kind = scene::LightKind::directional;
+    EXPECT_FALSE(plan().runs("airlight")) << "the sun is in the fog's own light";
+    scene.lights.front().kind = scene::LightKind::point;
+    scene.air.airlight = false;
+    EXPECT_FALSE(plan().runs("airlight"));
+    EXPECT_TRUE(plan().runs("fog"));
+    scene.air.airlight = true;
+    scene.air.law = scene::FogLaw::legacy;
+    EXPECT_FALSE(plan().runs("airlight"));
+}
+
 TEST_F(PlanTest, EmptySceneHidesNothing)
 {
     scene.ground.kind = scene::GroundKind::none;

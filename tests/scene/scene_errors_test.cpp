@@ -90,7 +90,7 @@ TEST(SceneErrors, UnknownNamesTheNearest)
 {
     const std::string tables =
         "use scene, domain, particles, simulation, snow, wind, vehicle, emitter, ground, box, model, voxels, "
-        "light, sky, camera, render, bloom or display";
+        "air, light, sky, camera, render, bloom or display";
     expect_errors({
         {with("[scene]\nsede = 4\n"),
          "s.toml:10: scene.sede = 4 is not known (the nearest known one is scene.seed); use name, about, "
