@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -16,6 +17,8 @@
 #include "core/error.h"
 #include "core/light.h"
 #include "core/visibility.h"
+#include "cpu/cpu_backend.h"
+#include "cpu/wind_projection.h"
 #include "gl/context.h"
 #include "image/whole_file.h"
 #include "scene/make_world.h"
@@ -92,16 +95,18 @@ void require_experiment(const scene::Scene& scene)
                         scene.file.string()));
 }
 
-double measure(scene::Scene scene, const scene::Geometry& geometry, const gl::Context& context,
-               const CalibrateOptions& options, double per_s)
+double measure_grey(scene::Scene scene, const scene::Geometry& geometry, const gl::Context& context,
+                    const CalibrateOptions& options, double per_s)
 {
     Emitter& emitter = scene.emitters.front().emitter;
     emitter.rate_per_s = per_s;
     scene.capacity = static_cast<std::uint64_t>(per_s * kLongestStay_s) + 1000;
-    const World world = scene::make_world(scene, geometry);
+    const World world = scene::make_world(scene, geometry, cpu::project_wind());
     StageLog log;
-    Simulator simulator(world, make_shared_memory(world.capacity), {}, log);
-    FrameDrawer drawer(scene, geometry, world, simulator, context.info(), log);
+    auto memory = make_shared_memory(world.capacity);
+    auto backend = cpu::make_cpu_backend(world, memory->flakes(), memory->draw_list(), {});
+    Simulator simulator(std::move(memory), std::move(backend), log);
+    FrameDrawer drawer(scene, geometry, world, simulator, context.info(), {}, log);
     const scene::Colour& ambient = scene.sky.ambient;
     const double white = luminance(Vec3d{ambient.r, ambient.g, ambient.b});
     double sum = 0;
@@ -153,7 +158,7 @@ int calibrate(const CalibrateOptions& options)
     for (const GreyReading& report : kReportTable)
     {
         if (options.most_per_s < report.per_s) break;
-        readings.push_back({report.per_s, measure(scene, geometry, *context, options, report.per_s)});
+        readings.push_back({report.per_s, measure_grey(scene, geometry, *context, options, report.per_s)});
         bar.show(readings.size());
     }
     const View view = scene::camera_at(scene, scene.render.warm_up_s);
