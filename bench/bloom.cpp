@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "bench/timing.h"
 #include "core/bloom.h"
 #include "core/tone.h"
 #include "gl/bloom_pass.h"
@@ -16,6 +15,7 @@
 #include "gl/exposure_pass.h"
 #include "gl/float_target.h"
 #include "gl/tone_pass.h"
+#include "measure/timing.h"
 
 // Rows bloom/METHOD/SIZE: time of the bloom pass and of mixing it into the picture, and the error of the
 // light as it is spread over the picture. The truth is the exact Gaussian of the same sigma in double
@@ -24,6 +24,8 @@
 
 namespace spindrift::bench
 {
+
+using namespace measure;
 
 namespace
 {

@@ -27,7 +27,8 @@ struct Splash
     std::vector<float> x, y, z;
     std::vector<std::uint32_t> ids;
     std::vector<std::uint64_t> pairs;
-    std::vector<std::uint8_t> texels, tone;
+    std::vector<std::uint8_t> texels, noise;
+    std::vector<std::uint16_t> tone;  ///< in 1/256 of a level
     std::vector<float> depth;
     std::vector<std::uint16_t> rgba;
     std::vector<std::uint8_t> display;
@@ -58,7 +59,8 @@ struct Splash
         }
         for (std::size_t i = 0; i < 4096 + 1024 + 3; ++i)
             texels.push_back(static_cast<std::uint8_t>(random()));
-        for (std::size_t i = 0; i < 0x8000; ++i) tone.push_back(static_cast<std::uint8_t>(i >> 7));
+        for (std::size_t i = 0; i < 0x8000; ++i) tone.push_back(static_cast<std::uint16_t>(2 * i % 65281));
+        for (std::size_t i = 0; i < kPixels; ++i) noise.push_back(static_cast<std::uint8_t>(random()));
         lamps = {{LampKind::point,
                   {2, 9, 1},
                   {0, 0, -1},
@@ -125,7 +127,7 @@ struct Splash
     void splat(const CpuOptions& options)
     {
         make_tile_splatter(options)->splat(
-            job, {kWidth, kHeight, depth.data(), rgba.data(), tone.data(), display.data()});
+            job, {kWidth, kHeight, depth.data(), rgba.data(), tone.data(), noise.data(), display.data()});
     }
 };
 
@@ -175,7 +177,8 @@ TEST(TileSplatter, DevelopsAPictureWithoutFlakes)
         empty.splat({2, simd});
         EXPECT_EQ(empty.rgba, before);
         for (std::size_t i = 0; i < kPixels * 4; ++i)
-            ASSERT_EQ(empty.display[i], i % 4 == 3 ? 255 : empty.tone[before[i]]) << i;
+            ASSERT_EQ(empty.display[i], i % 4 == 3 ? 255 : (empty.tone[before[i]] + empty.noise[i / 4]) >> 8)
+                << i;
     }
 }
 
