@@ -201,6 +201,7 @@ TEST_F(Skips, BloomChainWhereTheGpuFindsNothingBright)
 
 TEST_F(Skips, ExposureOfTheOtherEyeOfAPair)
 {
+    test_context();
     scene.render.auto_exposure = true;
     scene.render.adaptation_s = 2;
     const FlakeBuffers buffers(1);
