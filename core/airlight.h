@@ -15,10 +15,6 @@ namespace spindrift
 // (2012).
 
 inline constexpr int kAirlightPoints = 8;
-inline constexpr double kGauss8Place[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
-                                           0.9602898564975363};
-inline constexpr double kGauss8Weight[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
-                                            0.1012285362903763};
 
 /// The part of a way, in m, that a point or spot lamp reaches: its range and its cone. Empty: to <= from.
 template <class R>
@@ -99,10 +95,15 @@ SPINDRIFT_HD Vec3<R> airlight(const AirPath<R>& path, const Lamp<R>& lamp, const
     const R first = atan((select(any_lit, lit.from, zero) - nearest) / least);
     const R last = atan((select(any_lit, lit.to, zero) - nearest) / least);
     const R middle = number<R>(0.5) * (first + last), half = number<R>(0.5) * (last - first);
+    // Of the Gauss-Legendre rule, halves: inside the function, so that kernels share no table.
+    constexpr double kPlaces[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
+                                   0.9602898564975363};
+    constexpr double kWeights[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
+                                    0.1012285362903763};
     R sum = zero;
     for (int k = 0; k < kAirlightPoints; ++k)
     {
-        const double place = k < 4 ? -kGauss8Place[k] : kGauss8Place[k - 4];
+        const double place = k < 4 ? -kPlaces[k] : kPlaces[k - 4];
         R sine, cosine;
         sincos_turns((middle + half * number<R>(place)) * number<R>(0.15915494309189533577), sine, cosine);
         const R at = nearest + least * sine / cosine;
@@ -120,8 +121,8 @@ SPINDRIFT_HD Vec3<R> airlight(const AirPath<R>& path, const Lamp<R>& lamp, const
         const R reach = away / lamp.range_m;
         const R window = max(one - (reach * reach) * (reach * reach), zero);
         // the light goes on from the lamp's side: the cosine to the eye is -sin(theta)
-        sum = sum + number<R>(kGauss8Weight[k < 4 ? k : k - 4]) * share * window * path.fog_at(at) *
-                        exp(-depth) * scattered_share(lamp.phase, -sine);
+        sum = sum + number<R>(kWeights[k < 4 ? k : k - 4]) * share * window * path.fog_at(at) * exp(-depth) *
+                        scattered_share(lamp.phase, -sine);
     }
     return lamp.intensity * (sum * half / least);
 }

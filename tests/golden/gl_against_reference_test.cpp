@@ -152,7 +152,7 @@ INSTANTIATE_TEST_SUITE_P(
                  1e-3},
             Case{"air", 0, 1, Blending::over, Sprite::crystal, false, Air::thick, 1e-3, 1e-3},
             Case{"air_lamps", 2000, 40, Blending::over, Sprite::crystal, true, Air::thick, 1e-3, 1e-2},
-            Case{"air_even", 2000, 40, Blending::over, Sprite::crystal, false, Air::thick, 1e-3, 1e-3},
+            Case{"air_even", 2000, 40, Blending::over, Sprite::crystal, false, Air::thick, 7e-4, 1e-3},
             Case{"air_additive", 2000, 40, Blending::additive, Sprite::crystal, true, Air::thick, 1e-3, 1e-2},
             Case{"air_opaque", 2000, 20, Blending::opaque, Sprite::point, true, Air::thick, 1e-3, 1e-2},
             Case{"air_legacy", 2000, 40, Blending::over, Sprite::crystal, true, Air::legacy, 1.5e-3, 2e-3},
