@@ -135,6 +135,7 @@ void move_volume(Air& air, const Scene& scene, double time_s)
     const Box box = sky_box(scene, *sky, time_s);
     air.low = box.low;
     air.high = box.high;
+    air.flakes_per_m3 = density_of(scene, time_s);
 }
 
 bool same_lens(const View& a, const View& b)
@@ -150,7 +151,6 @@ Air air_at(const Scene& scene, const View& view, double time_s)
     air.law = scene.air.law;
     if (air.law == FogLaw::legacy) air.visibility_share = visibility_share(scene);
     air.tiny_flakes_fade = air.thick() && air.law == FogLaw::exponential;
-    air.flakes_per_m3 = density_of(scene, time_s);
     move_volume(air, scene, time_s);
     if (air.tiny_flakes_fade && air.flakes_per_m3 > 0)
         air.shade =

@@ -39,7 +39,7 @@ double far_transmittance(const Scene& scene, const View& view);
 /// The air for a frame. The table of the flakes' shade is made anew: keep it while the lens stays
 /// (same_lens).
 Air air_at(const Scene& scene, const View& view, double time_s);
-/// Only the flakes' volume moves.
+/// Only the flakes' volume moves, and with it their density where ground or domain cut it.
 void move_volume(Air& air, const Scene& scene, double time_s);
 bool same_lens(const View& a, const View& b);
 
