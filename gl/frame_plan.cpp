@@ -53,12 +53,12 @@ struct Facts
 
 PlannedPass runs(std::string name, std::string reason, std::string reads, std::string writes)
 {
-    return {std::move(name), true, std::move(reason), std::move(reads), std::move(writes), {}};
+    return {std::move(name), true, std::move(reason), std::move(reads), std::move(writes)};
 }
 
 PlannedPass left_out(std::string name, std::string reason)
 {
-    return {std::move(name), false, std::move(reason), "", "", {}};
+    return {std::move(name), false, std::move(reason), "", ""};
 }
 
 PlannedPass plan_cull(const Facts& facts)

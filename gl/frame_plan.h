@@ -40,7 +40,7 @@ struct PlannedPass
     bool runs = true;
     std::string reason;         ///< why it runs, or why it is left out
     std::string reads, writes;  ///< resources, for people
-    PassCost cost;              ///< nothing for a pass that is left out
+    PassCost cost{};            ///< nothing for a pass that is left out
 };
 
 /// The passes of one frame in order, those left out included with their reason.

@@ -43,6 +43,12 @@ PassCost pass_cost(std::string_view pass, const scene::Scene& scene, const View&
     if (pass == "sky") return touching(pixels, kColour + kDepth);
     if (pass == "fade") return touching(pixels, 3 * kDepth);
     if (pass == "flakes") return touching(drawn, kPlace + kId + kPair);
+    if (pass == "tiles")
+    {
+        const PassCost light = touching(pixels, 2 * kColour + kDepth),
+                       flakes = touching(drawn, kPlace + kId + kPair);
+        return {light.megabytes + flakes.megabytes, light.million_elements + flakes.million_elements};
+    }
     if (pass == "exposure") return touching(pixels / 16, kColour);
     if (pass == "bloom") return bloom_pass_cost(scene.bloom, view);
     if (pass == "tone") return touching(pixels, kColour + kDisplay);

@@ -27,7 +27,8 @@ struct Splash
     std::vector<float> x, y, z;
     std::vector<std::uint32_t> ids;
     std::vector<std::uint64_t> pairs;
-    std::vector<std::uint8_t> texels, tone;
+    std::vector<std::uint8_t> texels, noise;
+    std::vector<std::uint16_t> tone;
     std::vector<float> depth;
     std::vector<std::uint16_t> rgba;
     std::vector<std::uint8_t> display;
@@ -57,7 +58,8 @@ struct Splash
         }
         for (std::size_t i = 0; i < 4096 + 1024 + 3; ++i)
             texels.push_back(static_cast<std::uint8_t>(random()));
-        for (std::size_t i = 0; i < 0x8000; ++i) tone.push_back(static_cast<std::uint8_t>(i >> 7));
+        for (std::size_t i = 0; i < 0x8000; ++i) tone.push_back(static_cast<std::uint16_t>(i << 1));
+        for (std::size_t i = 0; i < kPixels; ++i) noise.push_back(static_cast<std::uint8_t>(37 * i));
         lamps = {{LampKind::point, {2, 9, 1}, {0, 0, -1}, {80, 60, 20}, 40, 1, 0, 0.7F},
                  {LampKind::directional, {}, {0.6F, 0, -0.8F}, {0.2F, 0.3F, 0.4F}, 1, 1, 0, -0.2F}};
         describe();
@@ -87,7 +89,7 @@ struct Splash
     void splat(const CpuOptions& options)
     {
         make_tile_splatter(options)->splat(
-            job, {kWidth, kHeight, depth.data(), rgba.data(), tone.data(), display.data()});
+            job, {kWidth, kHeight, depth.data(), rgba.data(), tone.data(), noise.data(), display.data()});
     }
 };
 
@@ -121,7 +123,10 @@ TEST(TileSplatter, DevelopsAPictureWithoutFlakes)
         empty.splat({2, simd});
         EXPECT_EQ(empty.rgba, before);
         for (std::size_t i = 0; i < kPixels * 4; ++i)
-            ASSERT_EQ(empty.display[i], i % 4 == 3 ? 255 : empty.tone[before[i]]) << i;
+        {
+            const int level = (empty.tone[before[i]] + empty.noise[i / 4]) >> 8;
+            ASSERT_EQ(empty.display[i], i % 4 == 3 ? 255 : level) << i;
+        }
     }
 }
 

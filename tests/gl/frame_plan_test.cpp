@@ -165,6 +165,75 @@ TEST_F(PlanTest, EveryPassHasAReasonAndReadsLikeAnExplainedQuery)
     EXPECT_NE(text.find(" - sort"), std::string::npos) << text;
 }
 
+TEST_F(PlanTest, CostsGrowWithThePictureAndTheFlakes)
+{
+    scene.bloom.weight = 0.1;
+    scene.render.auto_exposure = true;
+    view.width_px = 640;
+    view.height_px = 360;
+    const auto cost = [&](const std::string& name)
+    {
+        for (const PlannedPass& pass : plan().passes)
+            if (pass.name == name) return pass.cost;
+        return PassCost{};
+    };
+    for (const char* name : {"scene", "sky", "fade", "exposure", "bloom", "tone"})
+    {
+        view.width_px = 640;
+        const PassCost small = cost(name);
+        view.width_px = 1280;
+        EXPECT_NEAR(cost(name).megabytes / small.megabytes, 2, 1e-9) << name;
+        EXPECT_NEAR(cost(name).million_elements / small.million_elements, 2, 1e-9) << name;
+    }
+    for (const char* name : {"cull", "sort", "flakes"})
+    {
+        stats.counts.alive = 1000;
+        const PassCost few = cost(name);
+        stats.counts.alive = 4000;
+        EXPECT_NEAR(cost(name).megabytes / few.megabytes, 4, 1e-9) << name;
+    }
+    EXPECT_NEAR(cost("tone").megabytes, 1280 * 360 * 12e-6, 1e-9);
+    EXPECT_NE(to_text(plan()).find("In all about "), std::string::npos);
+    scene.bloom.weight = 0;
+    EXPECT_EQ(cost("bloom").megabytes, 0) << "what is left out costs nothing";
+}
+
+TEST_F(PlanTest, BloomMethodsCostWhatTheyTouch)
+{
+    scene.bloom.weight = 0.1;
+    view.width_px = 1280;
+    view.height_px = 720;
+    const auto million_texels = [&](scene::BloomMethod method)
+    {
+        scene.bloom.method = method;
+        for (const PlannedPass& pass : plan().passes)
+            if (pass.name == "bloom") return pass.cost.million_elements;
+        return 0.0;
+    };
+    EXPECT_NEAR(million_texels(scene::BloomMethod::gaussian), 1280 * 720 * (1 + 2 * 257) * 1e-6, 1e-6);
+    EXPECT_LT(million_texels(scene::BloomMethod::reduced), 3);
+    EXPECT_LT(million_texels(scene::BloomMethod::reduced), million_texels(scene::BloomMethod::dual));
+    EXPECT_LT(million_texels(scene::BloomMethod::dual), million_texels(scene::BloomMethod::pyramid));
+}
+
+TEST_F(PlanTest, TilesAreDevelopedWhereChannelsGoAlone)
+{
+    const auto in_tiles = [&]
+    { return plan_frame(scene, view, stats, 0, {}, GlKind::software).tone_in_tiles; };
+    EXPECT_TRUE(in_tiles());
+    EXPECT_FALSE(plan().tone_in_tiles) << "no tiles, no tone in them";
+    scene.display.tone = ToneCurve::legacy;
+    EXPECT_TRUE(in_tiles());
+    scene.display.tone = ToneCurve::neutral;
+    EXPECT_FALSE(in_tiles());
+    scene.display.tone = ToneCurve::linear;
+    scene.bloom.weight = 0.1;
+    EXPECT_FALSE(in_tiles());
+    scene.bloom.weight = 0;
+    scene.render.auto_exposure = true;
+    EXPECT_FALSE(in_tiles());
+}
+
 TEST(ActiveLights, LieInTheLocalFrame)
 {
     scene::Scene scene;
