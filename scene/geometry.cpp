@@ -92,8 +92,7 @@ double brightest_emission(const Geometry& geometry)
     float brightest = 0;
     for (const Mesh& mesh : geometry.meshes)
         for (const Material& material : mesh.materials)
-            brightest =
-                std::max({brightest, material.emission.r, material.emission.g, material.emission.b});
+            brightest = std::max({brightest, material.emission.r, material.emission.g, material.emission.b});
     return brightest;
 }
 

@@ -177,8 +177,10 @@ TEST(TileSplatter, DevelopsAPictureWithoutFlakes)
         empty.splat({2, simd});
         EXPECT_EQ(empty.rgba, before);
         for (std::size_t i = 0; i < kPixels * 4; ++i)
-            ASSERT_EQ(empty.display[i], i % 4 == 3 ? 255 : (empty.tone[before[i]] + empty.noise[i / 4]) >> 8)
-                << i;
+        {
+            const int level = (empty.tone[before[i]] + empty.noise[i / 4]) >> 8;
+            ASSERT_EQ(empty.display[i], i % 4 == 3 ? 255 : level) << i;
+        }
     }
 }
 
