@@ -19,8 +19,8 @@ enum class Fate : std::uint32_t
 
 /// The moving flakes as a structure of arrays over memory that somebody else owns (GL, the device or the
 /// host). Every array holds `capacity` elements and is aligned to 64 bytes. Slots [0, used) hold flakes, in
-/// ascending order of emission; slots whose fate is not `alive` are skipped. Positions are metres in the
-/// local frame, whose origin is the lower corner of the domain, z up.
+/// ascending order of emission unless they are re-ordered by cell; slots whose fate is not `alive` are
+/// skipped. Positions are metres in the local frame, whose origin is the lower corner of the domain, z up.
 struct FlakeView
 {
     float* x;

@@ -310,7 +310,7 @@ struct Scene
     double step_s = 1.0 / 60.0;
     std::uint64_t seed = 1;
     std::uint64_t capacity = 0;
-    std::uint32_t reorder_every_steps = 0;  ///< 0: never
+    std::uint32_t reorder_every_steps = 16;  ///< 0: never; docs/decisions/013
     Snow snow;
     WindSettings wind;
     AirSettings air;
