@@ -33,6 +33,7 @@ Examples:
   spindrift run town --headless --out town.mp4 --out town.png
   spindrift run my.toml --headless --out 'f_%04d.exr' --size 1920x1080 --frames 240
   spindrift run two-blocks --wind F_windsWk.nc --turbulence F_turbOut.nc
+  spindrift wind town -o wind.nc                             solve for its wind, for ParaView, xarray and QES-Plume
   spindrift explain town                                     what a frame does and why
   spindrift sorts --scene town                               which sort suits this machine and scene
 )";
@@ -134,6 +135,21 @@ void add_sort_passes(CLI::App& command, scene::SceneOverrides& scene, const char
         ->group(group);
 }
 
+void add_wind_files(CLI::App& command, scene::SceneOverrides& scene)
+{
+    const char* group = "The scene, changed";
+    command
+        .add_option("--wind", scene.winds_file,
+                    "Wind field: a file of QES-Winds (*_windsWk.nc) or of spindrift wind")
+        ->type_name("FILE")
+        ->group(group);
+    command
+        .add_option("--turbulence", scene.turbulence_file,
+                    "Its turbulence: *_turbOut.nc, or that of spindrift wind")
+        ->type_name("FILE")
+        ->group(group);
+}
+
 /// Options that change the scene, which run, explain and sorts share.
 void add_scene_options(CLI::App& command, scene::SceneOverrides& scene)
 {
@@ -145,12 +161,7 @@ void add_scene_options(CLI::App& command, scene::SceneOverrides& scene)
         ->check(CLI::PositiveNumber)
         ->group(group);
     command.add_option("--seed", scene.seed, "Seed of every random number")->type_name("X")->group(group);
-    command.add_option("--wind", scene.winds_file, "Wind field: a QES-Winds file *_windsWk.nc")
-        ->type_name("FILE")
-        ->group(group);
-    command.add_option("--turbulence", scene.turbulence_file, "Its turbulence: *_turbOut.nc")
-        ->type_name("FILE")
-        ->group(group);
+    add_wind_files(command, scene);
     command
         .add_option_function<std::string>(
             "--size",
@@ -186,6 +197,13 @@ void add_scene_options(CLI::App& command, scene::SceneOverrides& scene)
         ->check(CLI::Range(0, 1000000))
         ->group(group);
     add_sort_passes(command, scene, group);
+    command
+        .add_option(
+            "--flake-path", scene.flake_path,
+            "How blended flakes are drawn: raster, tiles (by the processor), or auto: tiles on software GL")
+        ->type_name("P")
+        ->check(CLI::IsMember({"auto", "raster", "tiles"}))
+        ->group(group);
 }
 
 void add_sort(CLI::App& command, scene::SceneOverrides& scene)
@@ -270,8 +288,10 @@ void add_run(CLI::App& app, RunOptions& options)
     static const std::map<std::string, Interop> kInterop = {
         {"auto", Interop::automatic}, {"on", Interop::on}, {"off", Interop::off}};
     command
-        .add_option("--interop", options.interop,
-                    "Simulate in the memory that GL draws from: auto, on, or off (copy each frame)")
+        .add_option(
+            "--interop", options.interop,
+            "Simulate in the memory that GL draws from: auto (where it works), on (or fail), off (copy "
+            "each frame)")
         ->type_name("I")
         ->transform(CLI::Transformer(kInterop).description(""))
         ->group(machine);
@@ -336,6 +356,31 @@ void add_sorts(CLI::App& app, SortsOptions& options)
     add_backend(command, options.backend, "The machine");
 }
 
+void add_wind(CLI::App& app, WindOptions& options)
+{
+    CLI::App& command =
+        *app.add_subcommand("wind", "Solve for the mean wind of a scene and write it to a file");
+    command.add_option("scene", options.scene, "A TOML file, or the name of a shipped scene")
+        ->required()
+        ->type_name("SCENE");
+    command
+        .add_option("-o,--out", options.out, "NetCDF file: CF cell means, and the faces that QES-Plume reads")
+        ->required()
+        ->type_name("FILE");
+    add_wind_files(command, options.overrides);
+    command.add_option("--threads", options.threads, "Threads of the solver; 0: one per core")
+        ->type_name("T")
+        ->check(CLI::Range(0, 1024));
+    static const std::map<std::string, bool> kMethods = {{"multigrid", false}, {"sor", true}};
+    command
+        .add_option(
+            "--method", options.relax,
+            "multigrid (conjugate gradients with a multigrid cycle), or sor (red-black over-relaxation, for "
+            "comparison)")
+        ->type_name("M")
+        ->transform(CLI::Transformer(kMethods).description(""));
+}
+
 }  // namespace
 
 int run_command_line(int argc, char** argv)
@@ -353,6 +398,8 @@ int run_command_line(int argc, char** argv)
     add_explain(app, explain_options);
     SortsOptions sorts_options;
     add_sorts(app, sorts_options);
+    WindOptions wind_options;
+    add_wind(app, wind_options);
     app.add_subcommand("info", "Backend, processor, GL renderer and libraries of this build and machine");
     app.add_subcommand("scenes", "List the shipped scenes");
     try
@@ -367,6 +414,7 @@ int run_command_line(int argc, char** argv)
     if (app.got_subcommand("run")) return run(run_options);
     if (app.got_subcommand("explain")) return explain(explain_options);
     if (app.got_subcommand("sorts")) return study_sorts(sorts_options);
+    if (app.got_subcommand("wind")) return wind(wind_options);
     if (app.got_subcommand("info")) return info();
     return list_scenes();
 }

@@ -10,6 +10,7 @@ namespace spindrift::app
 
 int run(const RunOptions& options);
 int explain(const ExplainOptions& options);
+int wind(const WindOptions& options);
 int info();
 int list_scenes();
 int study_sorts(const SortsOptions& options);

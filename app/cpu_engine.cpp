@@ -15,17 +15,18 @@ Engine make_cpu_engine(const World& world, const RunOptions& options, std::uint3
     std::unique_ptr<HostFlakeMemory> memory;
     if (drawing == Drawing::off)
     {
-        engine.about_memory = "host memory (nothing is drawn)";
+        engine.way = {"host memory", false, "nothing is drawn"};
         memory = make_host_memory(world.capacity);
     }
     else if (options.interop == Interop::off)
     {
-        engine.about_memory = "host memory, copied to GL for each frame (--interop off)";
+        engine.way = {"host memory, copied to GL for each frame", false, "asked for with --interop off"};
         memory = make_staged_memory(world.capacity);
     }
     else
     {
-        engine.about_memory = "GL buffers, which the simulation writes in place through a persistent mapping";
+        engine.way = {"GL's buffers, which the simulation writes in place", true,
+                      "OpenGL 4.5 maps its buffers for the processor persistently"};
         memory = make_shared_memory(world.capacity);
     }
     cpu::CpuOptions cpu = cpu_options(options);

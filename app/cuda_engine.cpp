@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include "app/engine.h"
-#include "core/error.h"
 #include "cuda/cuda_backend.h"
 #include "cuda/device.h"
 #include "cuda/flake_memory.h"
-#include "gl/flake_buffers.h"
+#include "cuda/interop/gl_device.h"
+#include "cuda/interop/sharing.h"
 
 namespace spindrift::app
 {
@@ -35,55 +35,46 @@ class UndrawnMemory final : public FlakeMemory
     gpu::DeviceFlakes device_;
 };
 
-/// Flakes on the device whose newest state is copied into GL's buffers for each frame.
-class CopiedFlakes final : public gpu::FlakeMemory
+/// Memory that GL draws from.
+class DrawnMemory final : public FlakeMemory
 {
   public:
-    explicit CopiedFlakes(std::size_t capacity) : device_(capacity), buffers_(capacity) {}
-    const gl::FlakeBuffers& buffers() const { return buffers_; }
-    std::size_t capacity() const override { return device_.capacity(); }
-    std::size_t bytes() const override { return device_.bytes() + buffers_.bytes(); }
-    gpu::FlakeAddresses map(gpu::StreamRef stream) override { return at_ = device_.map(stream); }
-    void unmap(gpu::StreamRef stream) override { stream.wait(); }
-
-    void hand_over(gpu::StreamRef stream, std::size_t used, const DrawList& list) override
-    {
-        const auto from = flake_words(at_.flakes);
-        const auto to = flake_words(buffers_.flakes());
-        for (std::size_t a = 0; used > 0 && a < from.size(); ++a)
-            gpu::copy_to_host(stream, to[a], from[a], used);
-        const auto pairs = list.in_scratch ? &DrawListView::scratch : &DrawListView::pairs;
-        if (list.count > 0)
-            gpu::copy_to_host(stream, buffers_.draw_list().*pairs, at_.draw_list.*pairs, list.count);
-    }
-
-  private:
-    gpu::DeviceFlakes device_;
-    gl::FlakeBuffers buffers_;
-    gpu::FlakeAddresses at_;
-};
-
-class CopiedMemory final : public FlakeMemory
-{
-  public:
-    explicit CopiedMemory(std::size_t capacity) : copied_(capacity) {}
-    gpu::FlakeMemory& on_device() { return copied_; }
-    std::size_t bytes() const override { return copied_.bytes(); }
-    const gl::FlakeBuffers* drawn_from() const override { return &copied_.buffers(); }
+    explicit DrawnMemory(std::unique_ptr<gpu::DrawnMemory> memory) : memory_(std::move(memory)) {}
+    gpu::FlakeMemory& on_device() { return *memory_; }
+    std::size_t bytes() const override { return memory_->bytes(); }
+    const gl::FlakeBuffers* drawn_from() const override { return &memory_->drawn_from(); }
     void hand_over(std::size_t, const DrawList&) override {}  // Backend::close does
 
   private:
-    CopiedFlakes copied_;
+    std::unique_ptr<gpu::DrawnMemory> memory_;
 };
 
+gpu::SharingWish wish_of(Interop interop)
+{
+    switch (interop)
+    {
+        case Interop::on:
+            return gpu::SharingWish::on;
+        case Interop::off:
+            return gpu::SharingWish::off;
+        case Interop::automatic:
+            break;
+    }
+    return gpu::SharingWish::automatic;
+}
+
+WayToGl way_of(const gpu::Sharing& sharing)
+{
+    return {gpu::describe(sharing), sharing.shared, sharing.because};
+}
+
 template <class Memory>
-Engine on(std::unique_ptr<Memory> memory, std::string about, const World& world,
-          const gpu::CudaOptions& options)
+Engine on(std::unique_ptr<Memory> memory, WayToGl way, const World& world, const gpu::CudaOptions& options)
 {
     Engine engine;
     engine.backend = gpu::make_cuda_backend(world, memory->on_device(), options);
     engine.memory = std::move(memory);
-    engine.about_memory = std::move(about);
+    engine.way = std::move(way);
     return engine;
 }
 
@@ -112,12 +103,22 @@ Engine make_cuda_engine(const World& world, const RunOptions& options, std::uint
                                     : gpu::StepGraph::off,
                                 reorder_every_steps};
     if (drawing == Drawing::off)
-        return on(std::make_unique<UndrawnMemory>(world.capacity), "device memory (nothing is drawn)", world,
-                  cuda);
-    if (options.interop == Interop::on)
-        throw Error("--interop on: the CUDA backend copies the flakes to GL; use --interop auto or off");
-    return on(std::make_unique<CopiedMemory>(world.capacity), "device memory, copied to GL for each frame",
-              world, cuda);
+        return on(std::make_unique<UndrawnMemory>(world.capacity),
+                  {"device memory", false, "nothing is drawn"}, world, cuda);
+    const gpu::SharingWish wish = wish_of(options.interop);
+    gpu::Sharing sharing = gpu::find_sharing(wish);
+    auto memory = gpu::make_drawn_memory(world.capacity, wish, sharing);
+    return on(std::make_unique<DrawnMemory>(std::move(memory)), way_of(sharing), world, cuda);
+}
+
+std::unique_ptr<gl::Context> make_drawing_context()
+{
+    return gpu::make_context_beside_cuda();
+}
+
+WayToGl cuda_way_to_gl()
+{
+    return way_of(gpu::find_sharing(gpu::SharingWish::automatic));
 }
 
 }  // namespace spindrift::app

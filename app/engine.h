@@ -3,21 +3,31 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/flake_memory.h"
 #include "app/options.h"
 #include "core/backend.h"
 #include "core/world.h"
+#include "gl/context.h"
 
 namespace spindrift::app
 {
+
+/// How the flakes come to GL.
+struct WayToGl
+{
+    std::string memory;   ///< where they live and how they get there, in words
+    bool shared = false;  ///< GL draws from the memory that the simulation writes
+    std::string because;  ///< why shared or not
+};
 
 /// What moves the flakes of a run, and where they live. The backend works on the memory, which outlives it.
 struct Engine
 {
     std::unique_ptr<FlakeMemory> memory;
     std::unique_ptr<Backend> backend;
-    std::string about_memory;  ///< how the flakes come to GL, in words
+    WayToGl way;
 };
 
 /// Whether pictures are made; then a GL context must be current.
@@ -43,5 +53,10 @@ struct CudaSupport
     std::string versions;              ///< of runtime and driver
 };
 CudaSupport cuda_support();
+
+/// A headless context; on a GPU that CUDA has, where the build has CUDA and EGL offers one. Throws Error.
+std::unique_ptr<gl::Context> make_drawing_context();
+/// The way from CUDA to the current GL context that `--interop auto` takes. Throws Error without a device.
+WayToGl cuda_way_to_gl();
 
 }  // namespace spindrift::app

@@ -7,6 +7,7 @@
 #include "app/find_scene.h"
 #include "app/run_report.h"
 #include "core/flake.h"
+#include "cpu/wind_projection.h"
 #include "gl/frame_plan.h"
 #include "scene/make_world.h"
 
@@ -52,7 +53,7 @@ Explained explain_scene(const ExplainOptions& options)
     const scene::Geometry geometry = scene::read_geometry(e.scene);
     for (const scene::Mesh& mesh : geometry.meshes)
         for (const scene::MeshPart& part : mesh.parts) e.triangles += part.indices.size() / 3;
-    e.world = scene::make_world(e.scene, geometry);
+    e.world = scene::make_world(e.scene, geometry, cpu::project_wind());
     e.lights = e.scene.lights.size() + geometry.model_lights.size();
 
     gl::FrameStats stats;

@@ -46,22 +46,31 @@ void print_cuda(const CudaSupport& cuda)
     line("", cuda.versions);
 }
 
-void print_gl()
+void print_interop(const CudaSupport& cuda)
 {
+    line("interop",
+         "cpu: GL's buffers, which the CPU backend writes in place (--interop off copies instead)");
+    if (cuda.devices.empty()) return;
+    const WayToGl way = cuda_way_to_gl();
+    line("", fmt::format("cuda: {} ({})", way.memory, way.because));
+}
+
+void print_gl(const CudaSupport& cuda)
+{
+    std::unique_ptr<gl::Context> context;
     try
     {
-        const gl::ContextInfo gl = gl::make_headless_context()->info();
-        line("GL", fmt::format("{} ({})", gl.renderer, gl.software ? "software" : "hardware"));
-        line("", fmt::format("{}, {}, through {}", gl.version, gl.vendor, gl.platform));
-        line(
-            "interop",
-            "the CPU backend writes GL's buffers through persistent mappings (--interop off copies instead)");
+        context = make_drawing_context();
     }
     catch (const Error& e)
     {
         line("GL", fmt::format("none: {}", e.what()));
-        line("interop", "none without GL; --headless without --out simulates all the same");
+        return line("interop", "none without GL; --headless without --out simulates all the same");
     }
+    const gl::ContextInfo& gl = context->info();
+    line("GL", fmt::format("{} ({})", gl.renderer, gl.software ? "software" : "hardware"));
+    line("", fmt::format("{}, {}, through {}", gl.version, gl.vendor, gl.platform));
+    print_interop(cuda);
 }
 
 }  // namespace
@@ -78,7 +87,7 @@ int info()
     line("SIMD", simd_variants());
     line("sorts", sorts(choice.name));
     print_cuda(cuda);
-    print_gl();
+    print_gl(cuda);
     line("display", has_display() ? "yes" : "none (DISPLAY and WAYLAND_DISPLAY are unset): use --headless");
     const auto ffmpeg = find_program("ffmpeg");
     line("video", ffmpeg.empty() ? "no ffmpeg on the PATH: --out x.mp4 is not possible" : ffmpeg.string());

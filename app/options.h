@@ -69,4 +69,13 @@ struct ExplainOptions
     bool json = false;
 };
 
+struct WindOptions
+{
+    std::string scene;
+    scene::SceneOverrides overrides;
+    std::filesystem::path out;
+    int threads = 0;     ///< 0: one per core
+    bool relax = false;  ///< by red-black over-relaxation instead of multigrid
+};
+
 }  // namespace spindrift::app

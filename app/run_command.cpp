@@ -13,6 +13,7 @@
 #include "app/sort_choice.h"
 #include "app/window_loop.h"
 #include "core/error.h"
+#include "cpu/wind_projection.h"
 #include "image/whole_file.h"
 #include "scene/make_world.h"
 
@@ -48,7 +49,7 @@ RunInput read_input(const RunOptions& options)
     if (options.depth_bits) scene.render.depth_bits = *options.depth_bits;
     scene.render.sort = choose_sort(choice.name, scene.render.sort);
     scene::Geometry geometry = scene::read_geometry(scene);
-    World world = scene::make_world(scene, geometry);
+    World world = scene::make_world(scene, geometry, cpu::project_wind());
     return {std::move(scene), std::move(geometry), std::move(world), choice};
 }
 

@@ -19,7 +19,7 @@ std::unique_ptr<Simulator> start_simulator(RunState& run, Drawing drawing)
 {
     const auto make = run.input.choice.name == "cuda" ? make_cuda_engine : make_cpu_engine;
     Engine engine = make(run.input.world, run.options, run.input.scene.reorder_every_steps, drawing);
-    run.report.flake_memory = engine.about_memory;
+    run.report.way = engine.way;
     run.report.buffer_bytes = engine.memory->bytes();
     auto simulator =
         std::make_unique<Simulator>(std::move(engine.memory), std::move(engine.backend), run.log);
@@ -112,11 +112,12 @@ void draw_frames(RunState& run, Simulator& simulator, FrameDrawer& drawer, const
 
 void draw_headless(RunState& run, Outputs& outputs)
 {
-    const std::unique_ptr<gl::Context> context = gl::make_headless_context();
+    const std::unique_ptr<gl::Context> context = make_drawing_context();
     run.report.gl = context->info();
     const auto simulator = start_simulator(run, Drawing::on);
     const FrameClock clock = make_clock(run.input, simulator->backend().step_number());
-    FrameDrawer drawer(run.input.scene, run.input.geometry, run.input.world, *simulator, run.log);
+    FrameDrawer drawer(run.input.scene, run.input.geometry, run.input.world, *simulator, context->info(),
+                       cpu_options(run.options), run.log);
 
     warm_up(run, *simulator, clock.steps_before(0));
     draw_frames(run, *simulator, drawer, clock, outputs);

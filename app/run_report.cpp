@@ -41,7 +41,9 @@ Json machine_json(const RunReport& report)
         backend["simd"] = report.simd;
         backend["threads"] = report.threads;
     }
-    Json machine = {{"backend", backend}, {"flake_memory", report.flake_memory}};
+    Json machine = {{"backend", backend},
+                    {"flake_memory", report.way.memory},
+                    {"interop", {{"shared", report.way.shared}, {"why", report.way.because}}}};
     if (report.gl)
         machine["gl"] = {{"platform", report.gl->platform},
                          {"renderer", report.gl->renderer},

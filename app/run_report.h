@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/backend_choice.h"
+#include "app/engine.h"
 #include "app/plan_log.h"
 #include "app/stage_log.h"
 #include "core/backend.h"
@@ -41,7 +42,7 @@ struct RunReport
     std::string backend;  ///< as it names itself
     std::string simd;
     int threads = 0;
-    std::string flake_memory;  ///< how the flakes come to GL
+    WayToGl way;
     std::optional<gl::ContextInfo> gl;
     std::string no_gl_because;
 

@@ -9,7 +9,7 @@
 #include <benchmark/benchmark.h>
 #include <tbb/task_arena.h>
 
-#include "core/world.h"
+#include "bench/windy_box.h"
 #include "cpu/cpu_backend.h"
 #include "measure/timing.h"
 
@@ -24,48 +24,6 @@ namespace
 using namespace cpu;
 
 constexpr std::uint64_t kFlakes = 1'000'000;
-constexpr float kCell = 2;  // m
-
-/// A town-sized wind: mean shear, a wake-like wave, stresses that vary over tens of metres.
-WindCell cell_at(float x, float y, float z)
-{
-    const float wave = std::sin(0.05F * x) * std::cos(0.04F * y);
-    const float slope = 0.05F * std::cos(0.05F * x) * std::cos(0.04F * y);
-    WindCell c{};
-    c.u = 3 + 1.5F * std::log1p(z) + wave, c.v = wave, c.w = 0.1F * wave;
-    c.s11 = 1.5F + 0.3F * wave, c.s22 = 1.2F, c.s33 = 0.8F, c.s31 = -0.2F;
-    c.div_s1 = 0.3F * slope;
-    c.gradient = 0.02F;
-    c.rate1 = 0.3F, c.rate2 = 0.4F, c.rate3 = 4.0F / (1 + z);
-    return c;
-}
-
-World bench_world(bool turbulent)
-{
-    World w;
-    w.size_m = {128 * kCell, 128 * kCell, 64 * kCell};
-    w.on_leave = OnLeave::wrap;
-    w.capacity = kFlakes;
-    w.has_ground = false;
-    w.wind.kind = WindKind::grid;
-    w.wind.turbulent = turbulent;
-    w.wind.nx = 128, w.wind.ny = 128, w.wind.nz = 64;
-    w.wind.origin_m = {kCell / 2, kCell / 2, kCell / 2};
-    w.wind.cell_m = {kCell, kCell, kCell};
-    for (int z = 0; z < 64; ++z)
-        for (int y = 0; y < 128; ++y)
-            for (int x = 0; x < 128; ++x)
-                w.wind.cells.push_back(cell_at(kCell * (static_cast<float>(x) + 0.5F),
-                                               kCell * (static_cast<float>(y) + 0.5F),
-                                               kCell * (static_cast<float>(z) + 0.5F)));
-    Emitter e;
-    e.shape = EmitterShape::box;
-    e.b = w.size_m;
-    e.burst = kFlakes;
-    w.emitters.push_back(e);
-    return w;
-}
-
 /// The eleven arrays of the state, one after the other, on the threads of the current arena.
 void copy_state(const FlakeView& from, const FlakeView& to)
 {
@@ -90,9 +48,10 @@ double variance_error(const FlakeView& f, std::size_t n)
 class Runner
 {
   public:
-    Runner(const World& world, Simd simd, int threads)
+    Runner(const World& world, Simd simd, int threads, std::uint32_t reorder_every_steps = 0)
         : memory_(kFlakes),
-          backend_(make_cpu_backend(world, memory_.flakes(), memory_.draw_list(), {threads, simd}))
+          backend_(make_cpu_backend(world, memory_.flakes(), memory_.draw_list(),
+                                    {threads, simd, reorder_every_steps}))
     {
         for (int i = 0; i < 2; ++i) backend_->step();
     }
@@ -100,6 +59,15 @@ class Runner
     {
         backend_->step();
         return backend_->times().advect;
+    }
+    /// Re-ordering included.
+    double steps_ms(int steps)
+    {
+        return time_ms(
+            [&]
+            {
+                for (int i = 0; i < steps; ++i) backend_->step();
+            });
     }
     FlakeView flakes() const { return memory_.flakes(); }
     const Backend& backend() const { return *backend_; }
@@ -113,7 +81,7 @@ class Runner
 /// else the machine does hits all of them. Ratios are medians over the rounds.
 void advection(benchmark::State& state, Simd simd, int threads, bool turbulent)
 {
-    const World world = bench_world(turbulent);
+    const World world = windy_box(kFlakes, turbulent);
     Runner runner(world, simd, threads);
     std::unique_ptr<Runner> scalar;
     std::unique_ptr<Runner> alone;
@@ -142,8 +110,40 @@ void advection(benchmark::State& state, Simd simd, int threads, bool turbulent)
         state.counters["variance_error"] = variance_error(runner.flakes(), runner.backend().slots_used());
 }
 
+/// Every round takes `interval` steps with one re-ordering among them, and as many of a run that never
+/// re-orders.
+void reordering(benchmark::State& state, int threads, int interval)
+{
+    const World world = windy_box(kFlakes, true);
+    Runner ordered(world, Simd::automatic, threads, static_cast<std::uint32_t>(interval));
+    Runner never(world, Simd::automatic, threads);
+    ordered.steps_ms(interval);
+    std::vector<double> with, without, gain;
+    for (auto _ : state)
+    {
+        with.push_back(ordered.steps_ms(interval) / interval);
+        without.push_back(never.steps_ms(interval) / interval);
+        state.SetIterationTime(with.back() * 1e-3);
+        gain.push_back(without.back() / with.back());
+    }
+    const double per_flake = 1e6 / static_cast<double>(ordered.backend().counts().alive);
+    state.counters["ns_per_flake_step"] = quantile(with, 0.5) * per_flake;
+    state.counters["never_ns"] = quantile(without, 0.5) * per_flake;
+    state.counters["faster_than_never"] = quantile(gain, 0.5);
+}
+
 const int kRegistered = []
 {
+    for (const int interval : {1, 4, 16, 64})
+        for (const int threads : {1, 2})
+        {
+            const std::string name = "advect/128x128x64/1M/turbulent/reorder-" + std::to_string(interval) +
+                                     "/" + std::to_string(threads) + "-thread";
+            benchmark::RegisterBenchmark(name.c_str(), reordering, threads, interval)
+                ->UseManualTime()
+                ->Unit(benchmark::kMillisecond)
+                ->Iterations(interval > 16 ? 2 : 5);
+        }
     for (const bool turbulent : {true, false})
         for (const Simd simd : available_simd())
             for (const int threads : {1, 2})

@@ -8,6 +8,8 @@
 
 #include "core/snow.h"
 #include "cpu/cpu_backend.h"
+#include "cpu/tile_splatter.h"
+#include "cpu/wind_projection.h"
 #include "reference/reference.h"
 #include "scene/make_world.h"
 
@@ -32,10 +34,12 @@ DrawnScene::DrawnScene(const std::string& name, std::uint64_t particles, int wid
     : context_(gl::make_headless_context()),
       scene_(shipped_scene(name, particles, width_px, height_px)),
       geometry_(scene::read_geometry(scene_)),
-      world_(scene::make_world(scene_, geometry_)),
+      world_(scene::make_world(scene_, geometry_, cpu::project_wind())),
       buffers_(std::make_unique<gl::FlakeBuffers>(world_.capacity)),
       backend_(cpu::make_cpu_backend(world_, buffers_->flakes(), buffers_->draw_list(), {})),
-      renderer_(std::make_unique<gl::Renderer>(scene_, geometry_, world_, *buffers_, width_px, height_px))
+      splatter_(cpu::make_tile_splatter({})),
+      renderer_(std::make_unique<gl::Renderer>(scene_, geometry_, world_, *buffers_, width_px, height_px,
+                                               splatter_.get()))
 {
 }
 
@@ -50,7 +54,8 @@ void DrawnScene::prepare()
     view_ = scene::camera_at(scene_, time_s_);
     gl::FrameStats stats;
     stats.counts = backend_->counts();
-    plan_ = gl::plan_frame(scene_, view_, stats, time_s_, geometry_.model_lights);
+    plan_ = gl::plan_frame(scene_, view_, stats, time_s_, geometry_.model_lights,
+                           context_->info().software ? gl::GlKind::software : gl::GlKind::hardware);
     SortSettings sort;
     sort.strategy = plan_.runs("sort") ? scene_.render.sort : "none";
     sort.depth_bits = scene_.render.depth_bits;
@@ -65,9 +70,12 @@ void DrawnScene::draw()
 
 void DrawnScene::draw_pass(std::string_view name)
 {
+    const bool in_tiles = name == "tiles" && plan_.runs("tiles");
+    if (name == "tone" && plan_.runs("tiles")) return;
     gl::FramePlan alone = plan_;
     for (gl::PlannedPass& pass : alone.passes)
-        pass.runs = pass.runs && (pass.name == name || pass.name == "lights");
+        pass.runs =
+            pass.runs && (pass.name == name || pass.name == "lights" || (in_tiles && pass.name == "tone"));
     renderer_->draw(alone, view_, list_, time_s_);
     glFinish();
 }

@@ -9,6 +9,7 @@
 
 #include "bench/bare_points.h"
 #include "core/backend.h"
+#include "core/splatter.h"
 #include "core/view.h"
 #include "gl/context.h"
 #include "gl/flake_buffers.h"
@@ -31,7 +32,8 @@ class DrawnScene
     void prepare();
     /// Every pass of the frame plan, until the picture is there.
     void draw();
-    /// One pass of the frame plan alone, over what the last draw() left, until it is there.
+    /// One pass of the frame plan alone, over what the last draw() left, until it is there. Tiles develop the
+    /// picture too; tone alone is then nothing.
     void draw_pass(std::string_view name);
     /// The picture in 8 bit, on the host.
     image::Image8 display() const { return renderer_->read_display(); }
@@ -55,6 +57,7 @@ class DrawnScene
     World world_;
     std::unique_ptr<gl::FlakeBuffers> buffers_;
     std::unique_ptr<Backend> backend_;
+    std::unique_ptr<Splatter> splatter_;
     std::unique_ptr<gl::Renderer> renderer_;
     View view_;
     DrawList list_;

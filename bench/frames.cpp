@@ -23,7 +23,7 @@ namespace
 
 constexpr int kWarmUpFrames = 5;
 constexpr int kFrames = 30;
-constexpr std::array kPasses{"scene", "sky", "fade", "flakes", "tone"};
+constexpr std::array kPasses{"scene", "sky", "fade", "flakes", "tiles", "tone"};
 
 struct Row
 {

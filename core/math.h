@@ -168,9 +168,12 @@ SPINDRIFT_HD IntOf<R> floor_to_int(R x)
     return detail::integer_to_int(floor(x));
 }
 
-/// Base 2; -inf at 0, NaN below.
+namespace detail
+{
+
+/// log2 of a number above 0, inf excepted.
 template <class R>
-SPINDRIFT_HD R log2(R x)
+SPINDRIFT_HD R log2_inside(R x)
 {
     R m, e;
     detail::split_exponent(x, m, e);
@@ -180,7 +183,16 @@ SPINDRIFT_HD R log2(R x)
     const R high = number<R>(wide ? 1.4426950408889634 : 1.4426950216293335);
     const R low = number<R>(wide ? 2.0355273740931033e-17 : 1.925963033500011e-08);
     const R fraction = fma(r, high, fma(tail, high, (r + tail) * low));
-    return detail::log_ends(x, e + fraction);
+    return e + fraction;
+}
+
+}  // namespace detail
+
+/// Base 2; -inf at 0, NaN below.
+template <class R>
+SPINDRIFT_HD R log2(R x)
+{
+    return detail::log_ends(x, detail::log2_inside(x));
 }
 
 /// Natural; -inf at 0, NaN below.
@@ -195,6 +207,21 @@ SPINDRIFT_HD R log(R x)
     const R high = number<R>(wide ? 0.6931471803691238 : 0.693359375);
     const R low = number<R>(wide ? 1.9082149292705877e-10 : -0.00021219444170128554);
     return detail::log_ends(x, fma(e, high, r + fma(e, low, detail::log1p_tail(r))));
+}
+
+/// 2^x for x in [-126, 126]: half the work of exp2.
+template <class R>
+SPINDRIFT_HD R exp2_inside(R x)
+{
+    const R n = round(x);
+    const R r = (x - n) * number<R>(0.69314718055994530942);
+    const UIntOf<R> power = as_uint(truncate_to_int(n)) + UIntOf<R>(127U);
+    return detail::exp_reduced(r) * from_bits(power << 23);
+}
+SPINDRIFT_HD double exp2_inside(double x)
+{
+    const double n = round(x);
+    return detail::scale_by_power(detail::exp_reduced((x - n) * 0.69314718055994530942), truncate_to_int(n));
 }
 
 /// 2^x; overflows to inf, underflows through the denormals to 0; NaN stays NaN.

@@ -126,12 +126,13 @@ std::vector<EGLDeviceEXT> egl_devices()
     return {devices.begin(), devices.begin() + count};
 }
 
-std::unique_ptr<Context> try_devices(std::string& answers)
+std::unique_ptr<Context> try_devices(const EglDeviceRule& wanted, std::string& answers)
 {
     const std::vector<EGLDeviceEXT> devices = egl_devices();
     if (devices.empty()) answers += "EGL device: none offered; ";
     for (std::size_t i = 0; i < devices.size(); ++i)
     {
+        if (!wanted(devices[i])) continue;
         try
         {
             EGLDisplay display = eglGetPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr);
@@ -153,11 +154,13 @@ std::string Context::debug_errors()
     return debug_log();
 }
 
-std::unique_ptr<Context> make_headless_context()
+std::unique_ptr<Context> make_headless_context(const EglDeviceRule& wanted)
 {
     std::string answers;
+    if (wanted)
+        if (auto context = try_devices(wanted, answers)) return context;
     if (auto context = try_surfaceless(answers)) return context;
-    if (auto context = try_devices(answers)) return context;
+    if (auto context = try_devices([](void*) { return true; }, answers)) return context;
     throw Error("no headless OpenGL 4.5 (" + answers +
                 "Mesa's software driver serves: install libegl1 and libgl1-mesa-dri)");
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -25,7 +26,11 @@ class Context
     static std::string debug_errors();
 };
 
-/// Headless, through EGL: Mesa surfaceless, else a device. Throws Error with what each way answered.
-std::unique_ptr<Context> make_headless_context();
+/// Whether a device of EGL (an EGLDeviceEXT) is wanted.
+using EglDeviceRule = std::function<bool(void* egl_device)>;
+
+/// Headless, through EGL: a wanted device, else Mesa surfaceless, else any device. Throws Error with what
+/// each way answered.
+std::unique_ptr<Context> make_headless_context(const EglDeviceRule& wanted = {});
 
 }  // namespace spindrift::gl

@@ -57,6 +57,7 @@ FlakePass::FlakePass(const scene::RenderSettings& settings, double weight, const
     : settings_(settings), buffers_(buffers), nothing_(make_vertex_array())
 {
     require_vertex_pulling();
+    if (buffers.access() == FlakeBuffers::Access::unmapped) split_.emplace();
     std::vector<std::string_view> defines;
     if (settings.blending == Blending::opaque)
         defines.emplace_back("OPAQUE");
@@ -78,8 +79,7 @@ void FlakePass::bind(const FlakeDraw& what) const
     glBindBufferRange(GL_SHADER_STORAGE_BUFFER, kYArray, state, bytes, bytes);
     glBindBufferRange(GL_SHADER_STORAGE_BUFFER, kZArray, state, 2 * bytes, bytes);
     glBindBufferRange(GL_SHADER_STORAGE_BUFFER, kIdArray, state, kIds * bytes, bytes);
-    const DrawListView lists = buffers_.draw_list();
-    const GLsizeiptr list_bytes = (lists.scratch - lists.pairs) * 8;
+    const auto list_bytes = static_cast<GLsizeiptr>(buffers_.list_stride() * 8);
     glBindBufferRange(GL_SHADER_STORAGE_BUFFER, kDrawList, buffers_.list_buffer(),
                       what.list.in_scratch ? list_bytes : 0, list_bytes);
     glBindTextureUnit(kSceneDepth, what.scene_depth);
@@ -103,18 +103,13 @@ void FlakePass::set_blending() const
         glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 }
 
-GLsizei FlakePass::count_plain(const FlakeDraw& what) const
+GLsizei FlakePass::count_beyond(const FlakeDraw& what, double border_m) const
 {
-    const auto count = static_cast<GLsizei>(what.list.count);
-    if (settings_.blending == Blending::opaque) return count;
-    if (!what.list.sorted) return 0;
-    // Far to near: the plain ones come first.
     const FlakeView flakes = buffers_.flakes();
     const DrawListView lists = buffers_.draw_list();
     const std::uint64_t* pairs = what.list.in_scratch ? lists.scratch : lists.pairs;
-    const double border_m = plain_beyond_m(what.view, settings_.flake_scale);
     GLsizei low = 0;
-    GLsizei high = count;
+    auto high = static_cast<GLsizei>(what.list.count);
     while (low < high)
     {
         const GLsizei middle = low + (high - low) / 2;
@@ -126,14 +121,40 @@ GLsizei FlakePass::count_plain(const FlakeDraw& what) const
     return low;
 }
 
-void FlakePass::draw_range(const FlakeDraw& what, Detail detail, GLsizei first, GLsizei count) const
+void FlakePass::use(const FlakeDraw& what, Detail detail) const
 {
-    if (count == 0) return;
     const GLuint program = programs_[detail].for_lights(what.lights);
     glUseProgram(program);
     if (settings_.blending != Blending::opaque)
         glProgramUniform1i(program, kHasScene, what.scene_depth != 0 ? 1 : 0);
+}
+
+void FlakePass::draw_range(const FlakeDraw& what, Detail detail, GLsizei first, GLsizei count) const
+{
+    if (count == 0) return;
+    use(what, detail);
     glDrawArrays(GL_POINTS, first, count);
+}
+
+void FlakePass::draw_points(const FlakeDraw& what) const
+{
+    const auto count = static_cast<GLsizei>(what.list.count);
+    if (settings_.blending == Blending::opaque) return draw_range(what, kPlain, 0, count);
+    if (!what.list.sorted) return draw_range(what, kCrystal, 0, count);
+    // Far to near: the plain ones come first.
+    const double border_m = plain_beyond_m(what.view, settings_.flake_scale);
+    if (!split_)
+    {
+        const GLsizei plain = count_beyond(what, border_m);
+        draw_range(what, kPlain, 0, plain);
+        draw_range(what, kCrystal, plain, count - plain);
+        return;
+    }
+    split_->search(count, what.view.eye, border_m);
+    use(what, kPlain);
+    glDrawArraysIndirect(GL_POINTS, FlakeSplit::beyond());
+    use(what, kCrystal);
+    glDrawArraysIndirect(GL_POINTS, FlakeSplit::within());
 }
 
 void FlakePass::draw(const FlakeDraw& what) const
@@ -151,9 +172,7 @@ void FlakePass::draw(const FlakeDraw& what) const
     glScissor(0, 0, what.view.width_px, what.view.height_px);
     glEnable(GL_PROGRAM_POINT_SIZE);
     glBindVertexArray(nothing_.name());
-    const GLsizei plain = count_plain(what);
-    draw_range(what, kPlain, 0, plain);
-    draw_range(what, kCrystal, plain, static_cast<GLsizei>(what.list.count) - plain);
+    draw_points(what);
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_BLEND);
     glViewport(0, 0, what.view.width_px, what.view.height_px);

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "core/backend.h"
 #include "core/view.h"
 #include "gl/flake_buffers.h"
+#include "gl/flake_split.h"
 #include "gl/lit_program.h"
 #include "gl/object.h"
 #include "scene/scene.h"
@@ -43,12 +45,15 @@ class FlakePass
     };
     void bind(const FlakeDraw& what) const;
     void set_blending() const;
-    GLsizei count_plain(const FlakeDraw& what) const;
+    GLsizei count_beyond(const FlakeDraw& what, double border_m) const;
+    void use(const FlakeDraw& what, Detail detail) const;
     void draw_range(const FlakeDraw& what, Detail detail, GLsizei first, GLsizei count) const;
+    void draw_points(const FlakeDraw& what) const;
 
     scene::RenderSettings settings_;
     const FlakeBuffers& buffers_;
     std::array<LitProgram, 2> programs_;  // by Detail
+    std::optional<FlakeSplit> split_;     // where the host cannot read the buffers
     VertexArray nothing_;
 };
 

@@ -36,6 +36,7 @@ enum Binding : unsigned
     kIdArray = 3,
     kDrawList = 4,
     kLights = 5,
+    kDrawCommands = 6,
     kSceneDepth = 0,
     kMasks = 1,
     kDepthTiles = 2,

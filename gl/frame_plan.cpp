@@ -15,6 +15,7 @@ namespace
 {
 
 using scene::Blending;
+using scene::FlakePath;
 
 /// Everything that the decisions look at, gathered once.
 struct Facts
@@ -25,16 +26,25 @@ struct Facts
     bool has_flakes;
     bool has_solids;
     bool blended;  // alpha is used
+    GlKind gl;
 
     Facts(const scene::Scene& s, const View& view, const FrameStats& stats, double time_s,
-          std::span<const scene::Light> model_lights)
+          std::span<const scene::Light> model_lights, GlKind kind)
         : scene(s),
           last(stats),
           lights(active_lights(s, model_lights, view, time_s)),
           has_flakes(stats.counts.alive > 0),
           has_solids(s.ground.kind != scene::GroundKind::none || !s.boxes.empty() || !s.models.empty()),
-          blended(s.render.blending != Blending::opaque)
+          blended(s.render.blending != Blending::opaque),
+          gl(kind)
     {
+    }
+
+    bool in_tiles() const
+    {
+        const FlakePath path = scene.render.flake_path;
+        return blended && gl != GlKind::out_of_reach &&
+               (path == FlakePath::tiles || (path == FlakePath::automatic && gl == GlKind::software));
     }
 };
 
@@ -94,12 +104,12 @@ std::string dark_reason(const ActiveLights& lights)
 PlannedPass plan_lights(const Facts& facts)
 {
     const std::string dark = dark_reason(facts.lights);
-    if (facts.lights.lights.empty())
+    if (facts.lights.lamps.empty())
         return left_out("lights", dark.empty() ? "the scene has no lights: ambient only"
                                                : fmt::format("no light counts now ({}): ambient only", dark));
     return runs(
         "lights",
-        fmt::format("{} light{} on{}", facts.lights.lights.size(), facts.lights.lights.size() == 1 ? "" : "s",
+        fmt::format("{} light{} on{}", facts.lights.lamps.size(), facts.lights.lamps.size() == 1 ? "" : "s",
                     dark.empty() ? "" : fmt::format("; left out: {}", dark)),
         "light table, display time", "lights");
 }
@@ -115,6 +125,7 @@ PlannedPass plan_fade(const Facts& facts)
     if (!facts.has_flakes) return left_out("fade", "no flakes are alive");
     if (!facts.blended) return left_out("fade", "opaque points do not fade where they cut into the scene");
     if (!facts.has_solids) return left_out("fade", "nothing solid to cut into");
+    if (facts.in_tiles()) return left_out("fade", "the tiles look at the depth of each pixel");
     return runs("fade", "flakes fade where they cut into the scene; hidden ones are dropped early", "depth",
                 "copy of depth, depth tiles");
 }
@@ -133,18 +144,48 @@ std::string_view blending_name(Blending blending)
     return "";
 }
 
+std::string flakes_reason(const Facts& facts)
+{
+    const std::size_t lamps = facts.lights.lamps.size();
+    return fmt::format("{} blending, {} a flake", blending_name(facts.scene.render.blending),
+                       lamps == 0 ? std::string("no scattering loop")
+                                  : fmt::format("{} phase function{}", lamps, lamps == 1 ? "" : "s"));
+}
+
 PlannedPass plan_flakes(const Facts& facts)
 {
     if (!facts.has_flakes) return left_out("flakes", "no flakes are alive");
-    return runs("flakes",
-                fmt::format("{} blending, {} a flake", blending_name(facts.scene.render.blending),
-                            facts.lights.lights.empty()
-                                ? std::string("no scattering loop")
-                                : fmt::format("{} phase function{}", facts.lights.lights.size(),
-                                              facts.lights.lights.size() == 1 ? "" : "s")),
+    if (facts.in_tiles()) return left_out("flakes", "drawn in tiles instead of as points");
+    return runs("flakes", flakes_reason(facts),
                 facts.blended ? "flakes, draw list, lights, depth, copy of depth, depth tiles"
                               : "flakes, draw list, lights, depth",
                 facts.blended ? "picture" : "picture, depth");
+}
+
+PlannedPass plan_tiles(const Facts& facts)
+{
+    if (!facts.has_flakes) return left_out("tiles", "no flakes are alive");
+    if (!facts.blended) return left_out("tiles", "opaque points go by the depth buffer");
+    const bool asked = facts.scene.render.flake_path != FlakePath::automatic;
+    if (facts.gl == GlKind::out_of_reach)
+        return left_out("tiles", "the processor cannot read the flakes where CUDA writes them");
+    if (!facts.in_tiles())
+        return left_out("tiles", asked ? "the scene asks for raster"
+                                       : "only software GL needs them: a GPU sets up points by itself");
+    return runs(
+        "tiles",
+        fmt::format("{}; {}", flakes_reason(facts),
+                    asked ? "the scene asks for tiles" : "software GL sets up points on one thread only"),
+        "flakes, draw list, lights, depth, picture", "picture");
+}
+
+PlannedPass plan_tone(const Facts& facts)
+{
+    const bool in_tiles = facts.has_flakes && facts.in_tiles();
+    return runs("tone",
+                fmt::format("exposure {:g}, clamp, sRGB{}", facts.scene.render.exposure,
+                            in_tiles ? ", in the tiles: nothing comes between" : ""),
+                "picture", "display");
 }
 
 }  // namespace
@@ -156,9 +197,9 @@ bool FramePlan::runs(std::string_view name) const
 }
 
 FramePlan plan_frame(const scene::Scene& scene, const View& view, const FrameStats& last, double time_s,
-                     std::span<const scene::Light> model_lights)
+                     std::span<const scene::Light> model_lights, GlKind gl)
 {
-    const Facts facts(scene, view, last, time_s, model_lights);
+    const Facts facts(scene, view, last, time_s, model_lights, gl);
     FramePlan plan;
     plan.passes.push_back(plan_cull(facts));
     plan.passes.push_back(plan_sort(facts));
@@ -167,8 +208,8 @@ FramePlan plan_frame(const scene::Scene& scene, const View& view, const FrameSta
     plan.passes.push_back(runs("sky", "fills what the scene leaves free", "depth", "picture"));
     plan.passes.push_back(plan_fade(facts));
     plan.passes.push_back(plan_flakes(facts));
-    plan.passes.push_back(
-        runs("tone", fmt::format("exposure {:g}, clamp, sRGB", scene.render.exposure), "picture", "display"));
+    plan.passes.push_back(plan_tiles(facts));
+    plan.passes.push_back(plan_tone(facts));
     return plan;
 }
 

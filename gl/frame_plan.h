@@ -38,10 +38,20 @@ struct FramePlan
     bool runs(std::string_view name) const;
 };
 
+/// Who runs GL, where that is known.
+enum class GlKind
+{
+    unknown,
+    hardware,
+    software,
+    out_of_reach,  ///< whoever it is: the flakes lie where the processor cannot read them
+};
+
 /// Pure: no GL, no clock. `time_s` is the display time of the frame (flashing lights); `model_lights` are
-/// those that came with models (scene::Geometry), which shine like the scene's own.
+/// those that came with models (scene::Geometry), which shine like the scene's own; `gl` decides how flakes
+/// are drawn where the scene leaves it open (unknown: as hardware).
 FramePlan plan_frame(const scene::Scene& scene, const View& view, const FrameStats& last, double time_s,
-                     std::span<const scene::Light> model_lights = {});
+                     std::span<const scene::Light> model_lights = {}, GlKind gl = GlKind::unknown);
 
 /// As `spindrift explain` prints it.
 std::string to_text(const FramePlan& plan);

@@ -18,7 +18,7 @@ GLuint LitProgram::for_lights(std::size_t count) const
     if (!variants_[variant])
     {
         std::vector<std::string_view> defines = defines_;
-        const std::string number = "LIGHTS " + std::to_string(variant) + "u";
+        const std::string number = "LIGHTS " + std::to_string(variant);
         if (variant <= kMostUnrolled) defines.push_back(number);
         variants_[variant] = make_program(files_, defines);
     }

@@ -18,6 +18,15 @@ Buffer make_buffer(GLsizeiptr bytes, const void* data, GLbitfield flags)
     return buffer;
 }
 
+Buffer make_lent_buffer(GLsizeiptr bytes, const void* data)
+{
+    GLuint name = 0;
+    glCreateBuffers(1, &name);
+    Buffer buffer(name);
+    glNamedBufferData(name, bytes, data, GL_DYNAMIC_COPY);
+    return buffer;
+}
+
 Texture make_texture_2d(GLenum format, int width, int height)
 {
     GLuint name = 0;

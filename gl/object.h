@@ -69,9 +69,11 @@ using Framebuffer = Object<FramebufferKind>;
 using VertexArray = Object<VertexArrayKind>;
 using Query = Object<QueryKind>;
 
-// All storage is immutable (direct state access).
+// All storage but make_lent_buffer()'s is immutable (direct state access).
 
 Buffer make_buffer(GLsizeiptr bytes, const void* data, GLbitfield flags);
+/// For buffers that another API fills: of the usual kind that any driver lends out, kept beside the GPU.
+Buffer make_lent_buffer(GLsizeiptr bytes, const void* data);
 Texture make_texture_2d(GLenum format, int width, int height);
 Framebuffer make_framebuffer();
 VertexArray make_vertex_array();

@@ -44,7 +44,8 @@ GLenum stage_of(std::string_view file)
 {
     if (file.ends_with(".vert")) return GL_VERTEX_SHADER;
     if (file.ends_with(".frag")) return GL_FRAGMENT_SHADER;
-    throw Error(fmt::format("shader {}: the name must end in .vert or .frag", file));
+    if (file.ends_with(".comp")) return GL_COMPUTE_SHADER;
+    throw Error(fmt::format("shader {}: the name must end in .vert, .frag or .comp", file));
 }
 
 std::string first_line(const std::string& text)

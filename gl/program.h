@@ -21,9 +21,9 @@ using Program = Object<ProgramKind>;
 /// Text of a file of shaders/, embedded at build time. Throws Error for a name that is not there.
 std::string_view shader_source(std::string_view file);
 
-/// Compiles and links files of shaders/ (.vert, .frag). `defines` become "#define X" lines behind #version;
-/// a line `#include "file"` is replaced by that file. Throws Error naming the file and the driver's first
-/// complaint.
+/// Compiles and links files of shaders/ (.vert, .frag, .comp). `defines` become "#define X" lines behind
+/// #version; a line `#include "file"` is replaced by that file. Throws Error naming the file and the driver's
+/// first complaint.
 Program make_program(std::span<const std::string_view> files, std::span<const std::string_view> defines = {});
 
 }  // namespace spindrift::gl

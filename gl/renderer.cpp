@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/error.h"
 #include "gl/active_lights.h"
 #include "gl/crystal_texture.h"
 #include "gl/flake_look.h"
@@ -16,6 +17,7 @@
 #include "gl/pass_timers.h"
 #include "gl/picture.h"
 #include "gl/scene_pass.h"
+#include "gl/tile_pass.h"
 #include "scene/crystals.h"
 
 namespace spindrift::gl
@@ -47,14 +49,17 @@ struct Renderer::Impl
     ScenePass scene_pass;
     FullScreenPass sky, tone, depth_tiles;
     FlakePass flakes;
+    TilePass tiles;
+    Splatter* splatter;
     Buffer frame_block;
     Buffer light_buffer;
     std::size_t light_room = 0;
     PassTimers timers;
+    bool fenced;  // the host writes the flakes
     GLsync flakes_read = nullptr;
 
     Impl(const scene::Scene& s, const scene::Geometry& geometry, const World& w, const FlakeBuffers& buffers,
-         int width, int height)
+         int width, int height, Splatter* blender)
         : scene(s),
           snow(w.snow),
           seed(w.seed),
@@ -66,7 +71,10 @@ struct Renderer::Impl
           tone("tone.vert", "tone.frag"),
           depth_tiles("tone.vert", "depth_tiles.frag"),
           flakes(s.render, static_cast<double>(w.snow.weight), buffers),
-          frame_block(make_buffer(sizeof(FrameConstants), nullptr, GL_DYNAMIC_STORAGE_BIT))
+          tiles(s.render, w, buffers),
+          splatter(blender),
+          frame_block(make_buffer(sizeof(FrameConstants), nullptr, GL_DYNAMIC_STORAGE_BIT)),
+          fenced(buffers.access() == FlakeBuffers::Access::mapped)
     {
     }
     ~Impl()
@@ -76,11 +84,12 @@ struct Renderer::Impl
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
-    void upload_lights(const std::vector<PackedLight>& lights);
+    void upload_lights(const std::vector<Lamp<float>>& lamps);
     FrameConstants constants(const View& view, std::size_t lights, double time_s) const;
     void draw_solid(const FramePlan& plan, const View& view, std::size_t lights, double time_s);
     void draw_flakes(const FramePlan& plan, const View& view, const DrawList& list, std::size_t lights);
     void prepare_depth();
+    void draw_tiles(const FramePlan& plan, const TilePass::Frame& frame);
     void draw_tone(const FramePlan& plan);
 
     template <class Draw>
@@ -92,8 +101,10 @@ struct Renderer::Impl
     }
 };
 
-void Renderer::Impl::upload_lights(const std::vector<PackedLight>& lights)
+void Renderer::Impl::upload_lights(const std::vector<Lamp<float>>& lamps)
 {
+    std::vector<PackedLight> lights;
+    for (const Lamp<float>& lamp : lamps) lights.push_back(pack(lamp));
     if (lights.size() > light_room || !light_buffer)
     {
         light_room = std::max<std::size_t>(lights.size() * 2, 8);
@@ -162,6 +173,7 @@ void Renderer::Impl::draw_flakes(const FramePlan& plan, const View& view, const 
     if (!plan.runs("flakes")) return;
     glBindTextureUnit(kMasks, mask_texture.name());
     timed("flakes", [&] { flakes.draw({view, list, fades ? picture.depth_copy.name() : 0, lights}); });
+    if (!fenced) return;
     if (flakes_read != nullptr) glDeleteSync(flakes_read);
     flakes_read = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
 }
@@ -179,6 +191,20 @@ void Renderer::Impl::prepare_depth()
     glBindFramebuffer(GL_FRAMEBUFFER, picture.linear_target.name());
 }
 
+void Renderer::Impl::draw_tiles(const FramePlan& plan, const TilePass::Frame& frame)
+{
+    if (splatter == nullptr)
+        throw Error("the frame plan draws flakes in tiles, but the renderer has no splatter");
+    timed("tiles",
+          [&]
+          {
+              if (plan.runs("tone"))
+                  tiles.blend_and_develop(*splatter, frame, picture);
+              else
+                  tiles.blend(*splatter, frame, picture);
+          });
+}
+
 void Renderer::Impl::draw_tone(const FramePlan& plan)
 {
     if (!plan.runs("tone")) return;
@@ -192,8 +218,8 @@ void Renderer::Impl::draw_tone(const FramePlan& plan)
 }
 
 Renderer::Renderer(const scene::Scene& scene, const scene::Geometry& geometry, const World& world,
-                   const FlakeBuffers& buffers, int width_px, int height_px)
-    : impl_(std::make_unique<Impl>(scene, geometry, world, buffers, width_px, height_px))
+                   const FlakeBuffers& buffers, int width_px, int height_px, Splatter* splatter)
+    : impl_(std::make_unique<Impl>(scene, geometry, world, buffers, width_px, height_px, splatter))
 {
 }
 Renderer::~Renderer() = default;
@@ -203,10 +229,11 @@ void Renderer::draw(const FramePlan& plan, const View& view, const DrawList& fla
     Impl& m = *impl_;
     if (view.width_px != m.picture.width || view.height_px != m.picture.height)
         resize(view.width_px, view.height_px);
+    m.tiles.discard();
     m.timers.begin_frame();
-    const std::vector<PackedLight> lights = plan.runs("lights")
-                                                ? active_lights(m.scene, m.model_lights, view, time_s).lights
-                                                : std::vector<PackedLight>{};
+    const std::vector<Lamp<float>> lights = plan.runs("lights")
+                                                ? active_lights(m.scene, m.model_lights, view, time_s).lamps
+                                                : std::vector<Lamp<float>>{};
     m.upload_lights(lights);
     const FrameConstants constants = m.constants(view, lights.size(), time_s);
     glNamedBufferSubData(m.frame_block.name(), 0, sizeof(constants), &constants);
@@ -214,7 +241,13 @@ void Renderer::draw(const FramePlan& plan, const View& view, const DrawList& fla
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     m.draw_solid(plan, view, lights.size(), time_s);
     m.draw_flakes(plan, view, flakes, lights.size());
-    m.draw_tone(plan);
+    if (plan.runs("tiles"))
+    {
+        const scene::Colour& ambient = m.scene.sky.ambient;
+        m.draw_tiles(plan, {view, flakes, lights, {ambient.r, ambient.g, ambient.b}, time_s});
+    }
+    else
+        m.draw_tone(plan);
 }
 
 void Renderer::wait_for_flakes() const
@@ -230,11 +263,15 @@ void Renderer::wait_for_flakes() const
 void Renderer::resize(int width_px, int height_px)
 {
     if (width_px != impl_->picture.width || height_px != impl_->picture.height)
+    {
+        impl_->tiles.discard();
         impl_->picture = Picture(width_px, height_px);
+    }
 }
 
 image::Image Renderer::read_linear() const
 {
+    impl_->tiles.bring_back(impl_->picture);
     const Picture& picture = impl_->picture;
     const std::size_t row = static_cast<std::size_t>(picture.width) * 4;
     const auto rows = static_cast<std::size_t>(picture.height);

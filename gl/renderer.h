@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/backend.h"
+#include "core/splatter.h"
 #include "core/view.h"
 #include "core/world.h"
 #include "gl/flake_buffers.h"
@@ -27,8 +28,9 @@ struct PassTime
 class Renderer
 {
   public:
+    /// `splatter` must outlive it; without one, plans whose flakes are drawn in tiles are refused.
     Renderer(const scene::Scene& scene, const scene::Geometry& geometry, const World& world,
-             const FlakeBuffers& buffers, int width_px, int height_px);
+             const FlakeBuffers& buffers, int width_px, int height_px, Splatter* splatter = nullptr);
     ~Renderer();
 
     /// `time_s` is the moment at which the frame is shown. Passes of the plan that do not run are not
@@ -36,7 +38,7 @@ class Renderer
     void draw(const FramePlan& plan, const View& view, const DrawList& flakes, double time_s);
 
     /// Blocks until the GPU has read the flakes of the last draw(); call it before a backend writes them
-    /// again.
+    /// again. Returns at once if the buffers are not mapped: who writes those is ordered behind GL.
     void wait_for_flakes() const;
 
     void resize(int width_px, int height_px);

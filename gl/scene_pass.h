@@ -13,8 +13,7 @@
 namespace spindrift::gl
 {
 
-/// Draws the solid things; meshes on vehicles at their place. Depth first, so that light is computed once a
-/// pixel.
+/// Draws the solid things; meshes on vehicles at their place, near to far by cluster.
 class ScenePass
 {
   public:

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/lamp_kind.h"
 #include "scene/make_world.h"
 
 namespace spindrift::reference
@@ -27,25 +28,11 @@ Vec3d local_position(const scene::Light& light, const scene::Scene& scene, doubl
     return light.position_m - scene.domain.min_m;
 }
 
-LampKind kind_of(scene::LightKind kind)
-{
-    switch (kind)
-    {
-        case scene::LightKind::spot:
-            return LampKind::spot;
-        case scene::LightKind::directional:
-            return LampKind::directional;
-        case scene::LightKind::point:
-            break;
-    }
-    return LampKind::point;
-}
-
 Lamp<double> lamp_of(const scene::Light& light, const scene::Scene& scene, double time_s)
 {
     const auto cosine = [](double degrees) { return std::cos(degrees * std::numbers::pi / 180); };
     Lamp<double> lamp;
-    lamp.kind = kind_of(light.kind);
+    lamp.kind = scene::lamp_kind(light.kind);
     lamp.position_m = local_position(light, scene, time_s);
     lamp.direction = light.direction;
     lamp.intensity = rgb(light.intensity);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/snow.h"
+#include "core/sprite.h"
 
 namespace spindrift::reference
 {
@@ -12,43 +13,24 @@ namespace spindrift::reference
 namespace
 {
 
-// All from docs/drawing.md, "Its sprite" and "Its light".
-constexpr double kSmallestRadius = 0.75;
-constexpr double kLargestRadius = 127;
-constexpr double kPlainBelow = 3, kDetailFrom = 6;  ///< px: between them mask and imposter fade in
-constexpr double kMostOpacity = 0.9999;
-constexpr double kThinnestFade = 0.05;
-constexpr double kMostRadiance = 6e4;
-constexpr double kImposter = 0.5;
-
-double detail_of(double r)
-{
-    return std::clamp((r - kPlainBelow) / (kDetailFrom - kPlainBelow), 0.0, 1.0);
-}
-
 /// Radius as drawn, and the opacity that keeps the coverage of flakes below the smallest radius.
 void set_size(Sprite& sprite, const scene::RenderSettings& render, const View& view, double diameter_m)
 {
     const double focal_px = view.height_px / (2.0 * view.tan_half_fov_y);
+    const double largest_px = std::min<double>(view.guard_px, kLargestSprite_px);
     sprite.radius_m = 0.5 * diameter_m * render.flake_scale;
-    const double r = sprite.radius_m * focal_px / sprite.z;
-    const double smaller = std::min(r / kSmallestRadius, 1.0);
-    sprite.r = std::clamp(r, kSmallestRadius, std::min<double>(view.guard_px, kLargestRadius));
-    sprite.opacity = smaller * smaller * std::clamp((sprite.z - view.near_m) / (3.0 * view.near_m), 0.0, 1.0);
+    const SpriteSize<double> size =
+        sprite_size<double>(sprite.radius_m, sprite.z, focal_px, largest_px, view.near_m);
+    sprite.r = size.radius_px;
+    sprite.opacity = size.opacity;
 }
 
 /// Sprite in the colour of its flake: crystal sprites that are lit and large enough are shaded as spheres.
-Rgb radiance(const Sprite& sprite, const scene::RenderSettings& render, double px, double py, double rho2)
+Rgb radiance(const Sprite& sprite, const scene::RenderSettings& render, double px, double py)
 {
-    const Vec3d& l = sprite.light.towards;
     double shade = 1;
     if (render.blending != scene::Blending::opaque && render.sprite == scene::Sprite::crystal)
-    {
-        const double normal_z = std::sqrt(std::max(1 - rho2, 0.0));
-        const double facing = px * l.x + py * l.y + normal_z * l.z;
-        const double t = detail_of(sprite.r);
-        shade = (1 - t) + t * (1 + kImposter * facing) / (1 + kImposter * 2 / 3 * l.z);
-    }
+        shade = imposter(px, py, sprite.light.towards, sprite_detail(sprite.r));
     const Rgb sum = sprite.light.ambient + sprite.light.lamps * shade;
     return {std::min(sum.x, kMostRadiance), std::min(sum.y, kMostRadiance), std::min(sum.z, kMostRadiance)};
 }
@@ -99,14 +81,14 @@ Dab dab_at(const Sprite& sprite, const scene::Scene& scene, const World& world,
     const double py = (sprite.y - pixel_y) / sprite.r;
     const double rho2 = px * px + py * py;
     if (rho2 > 1 || sprite.z >= z_scene) return {};
-    const Rgb colour = radiance(sprite, render, px, py, rho2);
+    const Rgb colour = radiance(sprite, render, px, py);
     if (render.blending == scene::Blending::opaque) return {1, colour};
 
     double profile = 1;
     if (render.sprite == scene::Sprite::crystal)
     {
         const scene::CrystalMask& crystal = crystals[static_cast<std::size_t>(sprite.shape)];
-        const double t = detail_of(sprite.r);
+        const double t = sprite_detail(sprite.r);
         double mask = crystal.mean;
         if (t > 0)
         {
@@ -114,13 +96,11 @@ Dab dab_at(const Sprite& sprite, const scene::Scene& scene, const World& world,
             mask += t * (scene::sample_mask(crystal, u, v, std::max(0.0, std::log2(64 / sprite.r))) -
                          crystal.mean);
         }
-        profile =
-            render.flake_opacity * std::exp(-rho2 / (2 * scene::kProfileSigma * scene::kProfileSigma)) * mask;
+        profile = render.flake_opacity * sprite_profile(rho2) * mask;
     }
-    const double opacity = std::min(sprite.opacity * profile, kMostOpacity);
     const double real_flakes = world.snow.weight / (render.flake_scale * render.flake_scale);
-    const double fade = std::clamp((z_scene - sprite.z) / std::max(sprite.radius_m, kThinnestFade), 0.0, 1.0);
-    return {(1 - std::pow(1 - opacity, real_flakes)) * fade, colour};
+    const double alpha = weighted_opacity(sprite.opacity * profile, real_flakes);
+    return {alpha * soft_edge(z_scene, sprite.z, 1 / std::max(sprite.radius_m, kThinnestFade_m)), colour};
 }
 
 }  // namespace spindrift::reference

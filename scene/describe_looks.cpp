@@ -20,6 +20,9 @@ constexpr std::array<Named<Blending>, 3> kBlendings{
     {{Blending::over, "over"}, {Blending::additive, "additive"}, {Blending::opaque, "opaque"}}};
 constexpr std::array<Named<Sprite>, 2> kSprites{{{Sprite::crystal, "crystal"}, {Sprite::point, "point"}}};
 
+constexpr std::array<Named<FlakePath>, 3> kFlakePaths{
+    {{FlakePath::automatic, "auto"}, {FlakePath::raster, "raster"}, {FlakePath::tiles, "tiles"}}};
+
 constexpr Range kShare{.min = 0, .max = 1};
 constexpr Range kLightAmount{.min = 0, .max = 1e9};
 
@@ -211,6 +214,11 @@ void describe_render(Section& section, RenderSettings& render)
     section.choice({.name = "blending", .about = "sorted far to near, added without a sort, or opaque"},
                    kBlendings, render.blending);
     section.choice({.name = "sprite", .about = "grown crystals, or plain points"}, kSprites, render.sprite);
+    section.choice(
+        {.name = "flake_path",
+         .about = "as points by GL's rasteriser, or in tiles by the processor; auto: tiles on software GL; "
+                  "also --flake-path"},
+        kFlakePaths, render.flake_path);
     std::size_t sort = static_cast<std::size_t>(std::find(kSortNames.begin(), kSortNames.end(), render.sort) -
                                                 kSortNames.begin());
     section.choice({.name = "sort", .about = "strategy of the depth sort (docs/sorting.md); also --sort"},

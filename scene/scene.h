@@ -37,7 +37,24 @@ enum class WindSource
     calm,
     uniform,
     logarithmic,
-    file,  ///< QES-Winds windsWk and turbOut
+    file,   ///< QES-Winds windsWk and turbOut
+    solve,  ///< an approaching wind, zones round blocks, and the projection
+};
+
+/// How a wind that is solved for approaches.
+enum class InflowKind
+{
+    logarithmic,
+    power,
+    measured,
+};
+
+/// A measured wind at one height.
+struct WindLevel
+{
+    double height_m = 0;  ///< above the ground
+    double speed_m_s = 0;
+    double from_direction_deg = 270;
 };
 
 struct WindSettings
@@ -52,7 +69,17 @@ struct WindSettings
     double boundary_layer_m = 1000;
     bool turbulence = true;      ///< surface-layer closure, or the turbulence file
     bool around_solids = false;  ///< logarithmic: put on a grid and made divergence-free round the solids
-    double cell_m = 2;           ///< of that grid
+    double cell_m = 2;           ///< of that grid, and of the one that is solved on
+
+    // solve
+    InflowKind profile = InflowKind::logarithmic;
+    double exponent = 0.16;              ///< power
+    std::vector<WindLevel> levels;       ///< measured; ascending heights
+    bool zones = true;                   ///< recirculation, wakes and the like round blocks
+    double layer_m = 0;                  ///< thickness of the lowest layer; 0: cell_m
+    double layer_growth = 1;             ///< of a layer over the one below it
+    std::filesystem::path cache_folder;  ///< empty: nothing is kept
+
     std::filesystem::path winds_file, turbulence_file;  ///< source = file; turbulence_file may be empty
 };
 
@@ -165,6 +192,14 @@ enum class Sprite
     point,    ///< plain opaque round point
 };
 
+/// How blended flakes are drawn; opaque points always by GL's rasteriser.
+enum class FlakePath
+{
+    automatic,  ///< raster on a GPU, tiles on software GL
+    raster,     ///< as points, by GL's rasteriser
+    tiles,      ///< by the processor, in tiles of the picture
+};
+
 struct RenderSettings
 {
     int width_px = 1280, height_px = 720;
@@ -173,6 +208,7 @@ struct RenderSettings
     double warm_up_s = 0;  ///< simulated before the first frame
     Blending blending = Blending::over;
     Sprite sprite = Sprite::crystal;
+    FlakePath flake_path = FlakePath::automatic;
     std::string sort = "auto";
     int depth_bits = 32;
     int sort_passes_per_frame = 8;  ///< steps of the sorts over frames
@@ -189,7 +225,7 @@ struct Scene
     double step_s = 1.0 / 60.0;
     std::uint64_t seed = 1;
     std::uint64_t capacity = 0;
-    std::uint32_t reorder_every_steps = 0;  ///< 0: never
+    std::uint32_t reorder_every_steps = 16;  ///< 0: never; docs/decisions/013
     Snow snow;
     WindSettings wind;
     std::vector<EmitterSettings> emitters;
@@ -210,7 +246,7 @@ struct SceneOverrides
     std::optional<std::uint64_t> particles;  ///< capacity, and bursts and rates scaled with it
     std::optional<std::uint64_t> seed;
     std::optional<std::int64_t> reorder_every_steps;
-    std::optional<std::string> sort;
+    std::optional<std::string> sort, flake_path;
     std::optional<int> sort_passes_per_frame;
     std::optional<int> width_px, height_px, frames;
     std::optional<double> frames_per_s;

@@ -9,12 +9,19 @@ struct Light
 };
 // Up to eight lights are read as uniforms by constant index, which software GL does an order faster; more as a buffer.
 #ifdef LIGHTS
-const uint kLightCount = LIGHTS;
+const uint kLightCount = uint(LIGHTS);
 layout(std140, binding = 1) uniform FewLights { Light lights[8]; };
 #else
 #define kLightCount counts.x
 layout(std430, binding = 5) readonly buffer Lights { Light lights[]; };
 #endif
+
+// The same light for places that are told from the eye.
+Light seen_from(Light light, vec3 eye)
+{
+    light.place.xyz -= eye * light.place.w;
+    return light;
+}
 
 const float kNearestLight = 0.05;  // m
 
@@ -22,13 +29,14 @@ const float kNearestLight = 0.05;  // m
 vec3 irradiance(Light light, vec3 p, out vec3 to_light)
 {
     vec3 way = light.place.xyz - p * light.place.w;
-    float d = max(length(way), 1e-6);
-    to_light = way / d;
-    float spot = clamp(-dot(to_light, light.direction.xyz) * light.direction.w + light.limits.x, 0.0, 1.0);
-    float u = d * light.limits.y;
-    float window = max(1.0 - u * u * u * u, 0.0);
-    float near = mix(1.0, max(d, kNearestLight), light.place.w);
-    return light.intensity.rgb * (spot * spot * window / (near * near));
+    float d2 = max(dot(way, way), 1e-12);
+    float per_m = inversesqrt(d2);
+    to_light = way * per_m;
+    float spot = clamp(light.limits.x - dot(to_light, light.direction.xyz) * light.direction.w, 0.0, 1.0);
+    float u2 = d2 * light.limits.y * light.limits.y;
+    float window = max(1.0 - u2 * u2, 0.0);
+    float near = light.place.w > 0.0 ? min(per_m, 1.0 / kNearestLight) : 1.0;
+    return light.intensity.rgb * (spot * spot * window * near * near);
 }
 
 // Henyey-Greenstein (Astrophys. J. 93, 1941) in the form that is stable near |g| = 1 for both signs, as core/phase.h has it;

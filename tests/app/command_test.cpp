@@ -37,7 +37,7 @@ TEST_F(Command, HelpNamesEverySubcommandAndGivesExamples)
 {
     const Finished help = run_command({"--help"});
     EXPECT_EQ(help.exit_code, 0);
-    for (const char* word : {"run", "explain", "sorts", "info", "scenes", "Examples:", "130"})
+    for (const char* word : {"run", "wind", "explain", "sorts", "info", "scenes", "Examples:", "130"})
         EXPECT_THAT(help.output, HasSubstr(word));
     EXPECT_EQ(help.error, "");
 }
@@ -50,7 +50,7 @@ TEST_F(Command, HelpOfRunNamesEveryOption)
          {"--headless", "--frames",        "--out",           "--size",  "--fps",        "--backend",
           "--threads",  "--simd",          "--particles",     "--sort",  "--depth-bits", "--sort-passes",
           "--seed",     "--wind",          "--turbulence",    "--stats", "--hash",       "--interop",
-          "--steps",    "--save-snapshot", "--load-snapshot", "radix"})
+          "--steps",    "--save-snapshot", "--load-snapshot", "radix",   "--reorder",    "--cuda-graph"})
         EXPECT_THAT(help.output, HasSubstr(option));
 }
 
@@ -75,6 +75,10 @@ TEST_F(Command, WrongArgumentsAreBadInput)
         {"run", scene, "--headless", "--simd", "sse"},
         {"run", scene, "--headless", "--backend", "vulkan"},
         {"run", scene, "--headless", "--interop", "maybe"},
+        {"run", scene, "--headless", "--reorder", "-1"},
+        {"run", scene, "--headless", "--cuda-graph", "maybe"},
+        {"run", scene, "--headless", "--backend", "cpu", "--cuda-graph", "on"},
+        {"run", scene, "--headless", "--threads", "2", "--cuda-graph", "off"},
     };
     for (const auto& arguments : wrong)
     {
@@ -167,6 +171,7 @@ TEST_F(Command, HashDoesNotDependOnThreadsOrSimd)
         if (info.find(simd) == std::string::npos) continue;
         EXPECT_EQ(with({"--simd", simd}), hash) << simd;
     }
+    for (const char* steps : {"0", "1", "7"}) EXPECT_EQ(with({"--reorder", steps}), hash) << steps;
     EXPECT_NE(with({"--seed", "8"}), hash);
 }
 

@@ -143,11 +143,23 @@ TEST_F(Drawing, SortsAlongACameraPathAreHeldAgainstThePictureInExactOrder)
         EXPECT_GT(row.at("pairs"), 1000);
         const double error = row.at("image_relative_l2");
         const bool passes = !row.at("passes_per_frame").is_null();
-        if (row.at("key_bits") == 32 && !passes && row.at("sort") != "none") EXPECT_EQ(error, 0);
+        if (row.at("key_bits") == 32 && !passes && row.at("sort") != "none")
+        {
+            EXPECT_EQ(error, 0);
+        }
         const double inversions = row.at("inversion_fraction");
-        if (passes || row.at("sort") == "none") EXPECT_GT(inversions, 1e-4);
-        if (row.at("sort") == "none") EXPECT_GT(error, 0) << "order shows in the picture";
-        if (inversions == 0) EXPECT_EQ(error, 0);
+        if (passes || row.at("sort") == "none")
+        {
+            EXPECT_GT(inversions, 1e-4);
+        }
+        if (row.at("sort") == "none")
+        {
+            EXPECT_GT(error, 0) << "order shows in the picture";
+        }
+        if (inversions == 0)
+        {
+            EXPECT_EQ(error, 0);
+        }
         EXPECT_LT(error, 0.5);
         EXPECT_GE(row.at("image_relative_l2_worst"), error);
     }

@@ -50,6 +50,8 @@ TEST_F(Statistics, OfASimulationBalance)
                   counts.at("landed").get<std::uint64_t>() + counts.at("vanished").get<std::uint64_t>());
     EXPECT_TRUE(counts.at("balance").at("holds"));
     EXPECT_GT(counts.at("emitted"), 15000);
+    EXPECT_EQ(counts.at("rogue"), 0);
+    EXPECT_LT(stats.at("bounds").at("min_m")[0], stats.at("bounds").at("max_m")[0]);
     EXPECT_EQ(stats.at("steps"), 60);
     EXPECT_EQ(stats.at("backend").at("name"), "cpu");
     EXPECT_EQ(stats.at("backend").at("threads"), 2);
@@ -74,6 +76,7 @@ TEST_F(Statistics, SayWhatTheSimulationLeftOut)
     }
     const json still = stats_of({"run", write("calm.toml", calm), "--headless", "--steps", "2"});
     EXPECT_TRUE(mentions(still.at("skipped"), "turbulence"));
+    EXPECT_TRUE(mentions(still.at("skipped"), "re-ordering by cell"));
     const json gusty = stats_of({"run", small_scene(), "--headless", "--steps", "2"});
     EXPECT_FALSE(mentions(gusty.at("skipped"), "turbulence"));
 }

@@ -1,9 +1,10 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# A run in a window, on a virtual display of its own: ends after --frames, and ends whole on SIGINT. Exit 77: no Xvfb here.
+# A run in a window, on a virtual display of its own: COMMAND SCENE [OPTION...]. It ends after --frames, and whole on SIGINT. Exit 77: no Xvfb here.
 set -euo pipefail
 command=$1
 scene=$2
+more=("${@:3}")
 command -v Xvfb > /dev/null || exit 77
 work=$(mktemp -d)
 mkfifo "$work/display"
@@ -13,8 +14,8 @@ trap 'kill $xvfb; rm -rf "$work"' EXIT
 read -r -t 30 number < "$work/display"
 export DISPLAY=:$number
 
-run=("$command" run "$scene" --particles 2000 --size 160x120)
-"${run[@]}" --frames 5 --interop on --stats "$work/stats.json" > "$work/out"
+run=("$command" run "$scene" --particles 2000 --size 160x120 "${more[@]}")
+"${run[@]}" --frames 5 --stats "$work/stats.json" > "$work/out"
 grep -q '5 frames' "$work/out"
 grep -q '"platform": "GLFW"' "$work/stats.json"
 

@@ -29,6 +29,7 @@ set(scene_never "${graphics}|${threads}")
 set(image_never "${graphics}")
 set(cpu_never "${graphics}")
 set(reference_never "${graphics}")
+set(gl_never "cuda|cub/|thrust/")
 set(cuda_never "GL/|GLFW/|EGL/|cuda_gl_interop|imgui")
 
 set(faults "")

@@ -119,6 +119,8 @@ std::vector<Row<T, Wide>> rows()
          [](Wide x) { return std::log(x); }, 1.5},
         {"exp2", coarse ? "[-155, 130]" : "[-1080, 1030]", -exponent * T(1.2), exponent,
          [](T x) { return spindrift::exp2(x); }, [](Wide x) { return std::exp2(x); }, 1.5},
+        {"exp2_inside", "[-126, 126]", T(-126), T(126), [](T x) { return spindrift::exp2_inside(x); },
+         [](Wide x) { return std::exp2(x); }, 1.5},
         {"exp", coarse ? "[-155, 130]" : "[-1080, 1030]", -exponent * T(1.2), exponent,
          [](T x) { return spindrift::exp(x); }, [](Wide x) { return std::exp(x); }, 1.5},
         {"sin", "all turns", -all, all, [](T x) { return sine(x); }, [](Wide x) { return turned(x, false); },

@@ -9,7 +9,7 @@
 namespace spindrift::gpu
 {
 
-void DeviceTest::SetUp()
+void require_device()
 {
     const Devices devices = find_devices();
     if (!devices.list.empty()) return;

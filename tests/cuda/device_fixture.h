@@ -6,12 +6,14 @@
 namespace spindrift::gpu
 {
 
-/// Base of every test that needs a device: without one it skips, saying why; with SPINDRIFT_REQUIRE_CUDA=1 it
-/// fails.
+/// For SetUp(): without a device the test is skipped, saying why; with SPINDRIFT_REQUIRE_CUDA=1 it fails.
+void require_device();
+
+/// Base of tests that need a device.
 class DeviceTest : public testing::Test
 {
   protected:
-    void SetUp() override;
+    void SetUp() override { require_device(); }
 };
 
 }  // namespace spindrift::gpu

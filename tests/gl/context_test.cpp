@@ -2,9 +2,11 @@
 #include "gl/context.h"
 
 #include <GL/glew.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
+#include <vector>
 
 #include "core/error.h"
 #include "gl/flake_buffers.h"
@@ -90,6 +92,32 @@ TEST(FlakeBuffers, MappedWritesReachTheBuffer)
     glGetNamedBufferSubData(buffers.list_buffer(), scratch + 5 * 8, 8, &pair);
     EXPECT_EQ(id, 0xABCD1234U);
     EXPECT_EQ(pair, 0x1122334455667788U);
+    EXPECT_EQ(Context::debug_errors(), errors_before);
+}
+
+TEST(FlakeBuffers, UnmappedOnesHoldZerosAndTakeTheSameLayout)
+{
+    test_context();
+    const std::string errors_before = Context::debug_errors();
+    const FlakeBuffers mapped(1000);
+    const FlakeBuffers buffers(1000, FlakeBuffers::Access::unmapped);
+    EXPECT_EQ(buffers.flakes().x, nullptr);
+    EXPECT_EQ(buffers.draw_list().pairs, nullptr);
+    EXPECT_EQ(buffers.bytes(), mapped.bytes());
+
+    std::vector<std::uint32_t> state(11 * buffers.array_stride(), 1);
+    std::vector<std::uint64_t> lists(2 * buffers.list_stride(), 1);
+    EXPECT_EQ(state.size() * 4 + lists.size() * 8, buffers.bytes());
+    glGetNamedBufferSubData(buffers.state_buffer(), 0, static_cast<GLsizeiptr>(state.size() * 4),
+                            state.data());
+    glGetNamedBufferSubData(buffers.list_buffer(), 0, static_cast<GLsizeiptr>(lists.size() * 8),
+                            lists.data());
+    EXPECT_THAT(state, testing::Each(0U));
+    EXPECT_THAT(lists, testing::Each(0U));
+    EXPECT_EQ(buffers.flakes_at(state.data()).state - state.data(),
+              mapped.flakes().state - reinterpret_cast<std::uint32_t*>(mapped.flakes().x));
+    EXPECT_EQ(buffers.draw_list_at(lists.data()).scratch - lists.data(),
+              mapped.draw_list().scratch - mapped.draw_list().pairs);
     EXPECT_EQ(Context::debug_errors(), errors_before);
 }
 

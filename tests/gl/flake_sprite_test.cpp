@@ -262,6 +262,25 @@ TEST_F(FlakeSprite, PlainAndCrystalShadersAgreeBelowThreePixels)
     for (std::size_t i = 0; i < lean.rgba.size(); ++i) ASSERT_NEAR(lean.rgba[i], full.rgba[i], 2e-3) << i;
 }
 
+TEST_F(FlakeSprite, BuffersThatTheHostCannotReadGiveTheSamePicture)
+{
+    // Some beyond the border between the two shaders (2.3 m here), some within; then all on one side of it.
+    for (const double nearest_m : {0.6, 4.0, 0.05})
+        for (const Blending blending : {Blending::over, Blending::opaque})
+        {
+            places.clear();
+            ids.clear();
+            scene.render.blending = blending;
+            for (int i = 0; i < 40; ++i)
+                add_flake(at_pixel(view, 8 + 2 * i, 10 + i, nearest_m * (1 + 0.15 * (40 - i))),
+                          static_cast<std::uint32_t>(i));
+            const image::Image mapped = draw();
+            const image::Image unmapped = draw(0, FlakeBuffers::Access::unmapped);
+            EXPECT_GT(total(mapped), 0.1);
+            EXPECT_EQ(mapped.rgba, unmapped.rgba) << nearest_m;
+        }
+}
+
 TEST_F(FlakeSprite, NonFinitePlacesDrawNothing)
 {
     scene.lights.push_back(point_light({0, 2, 0}, 100));

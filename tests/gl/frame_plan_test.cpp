@@ -64,6 +64,29 @@ TEST_F(PlanTest, AdditiveAndOpaqueNeedNoSort)
     EXPECT_TRUE(plan().runs("flakes"));
 }
 
+TEST_F(PlanTest, SoftwareGlDrawsBlendedFlakesInTiles)
+{
+    const auto in_tiles = [&](GlKind gl)
+    {
+        const FramePlan p = plan_frame(scene, view, stats, 0, {}, gl);
+        EXPECT_NE(p.runs("tiles"), p.runs("flakes"));
+        EXPECT_FALSE(p.runs("tiles") && p.runs("fade"));
+        return p.runs("tiles");
+    };
+    EXPECT_TRUE(in_tiles(GlKind::software));
+    EXPECT_FALSE(in_tiles(GlKind::hardware));
+    EXPECT_FALSE(in_tiles(GlKind::unknown));
+    scene.render.flake_path = scene::FlakePath::raster;
+    EXPECT_FALSE(in_tiles(GlKind::software));
+    scene.render.flake_path = scene::FlakePath::tiles;
+    EXPECT_TRUE(in_tiles(GlKind::hardware));
+    EXPECT_NE(reason("tiles").find("the scene asks"), std::string::npos) << reason("tiles");
+    EXPECT_NE(reason("flakes").find("in tiles"), std::string::npos) << reason("flakes");
+    scene.render.blending = scene::Blending::opaque;
+    EXPECT_FALSE(in_tiles(GlKind::software)) << "opaque points need the depth buffer";
+    EXPECT_NE(reason("tiles").find("depth buffer"), std::string::npos) << reason("tiles");
+}
+
 TEST_F(PlanTest, RestNeedsNoNewSort)
 {
     stats.flakes_moved = false;
@@ -150,8 +173,8 @@ TEST(ActiveLights, LieInTheLocalFrame)
     lamp.position_m = {101, 203, 305};
     scene.lights.push_back(lamp);
     const ActiveLights active = active_lights(scene, {}, View{}, 0);
-    ASSERT_EQ(active.lights.size(), 1U);
-    EXPECT_EQ(active.lights[0].place, glm::vec4(1, 3, 5, 1));
+    ASSERT_EQ(active.lamps.size(), 1U);
+    EXPECT_EQ(pack(active.lamps[0]).place, glm::vec4(1, 3, 5, 1));
 }
 
 }  // namespace

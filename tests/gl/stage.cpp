@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/gl/stage.h"
 
+#include <GL/glew.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,27 +39,36 @@ struct Drawn
     image::Image8 display;
 };
 
-Drawn draw_stage(const Stage& stage, double time_s)
+void place(const Stage& stage, const FlakeView& flakes, const DrawListView& list)
 {
-    test_context();
-    const std::string errors_before = Context::debug_errors();
-    FlakeBuffers buffers(std::max<std::size_t>(stage.places.size(), 1));
-    const FlakeView flakes = buffers.flakes();
     for (std::size_t i = 0; i < stage.places.size(); ++i)
     {
         flakes.x[i] = stage.places[i].x;
         flakes.y[i] = stage.places[i].y;
         flakes.z[i] = stage.places[i].z;
         flakes.id[i] = stage.ids[i];
-        buffers.draw_list().pairs[i] = i << 32 | i;
+        list.pairs[i] = i << 32 | i;
     }
+}
+
+void fill(const Stage& stage, const FlakeBuffers& buffers)
+{
+    if (buffers.access() == FlakeBuffers::Access::mapped)
+        return place(stage, buffers.flakes(), buffers.draw_list());
+    std::vector<std::uint32_t> state(11 * buffers.array_stride());
+    std::vector<std::uint64_t> lists(2 * buffers.list_stride());
+    place(stage, buffers.flakes_at(state.data()), buffers.draw_list_at(lists.data()));
+    glNamedBufferSubData(buffers.state_buffer(), 0, static_cast<GLsizeiptr>(state.size() * 4), state.data());
+    glNamedBufferSubData(buffers.list_buffer(), 0, static_cast<GLsizeiptr>(lists.size() * 8), lists.data());
+}
+
+Drawn draw_buffers(const Stage& stage, const FlakeBuffers& buffers, const DrawList& list, double time_s)
+{
+    const std::string errors_before = Context::debug_errors();
     Renderer renderer(stage.scene, stage.geometry, stage.world, buffers, stage.view.width_px,
                       stage.view.height_px);
     FrameStats stats;
-    stats.counts.alive = stage.places.size();
-    DrawList list;
-    list.count = stage.places.size();
-    list.sorted = stage.sorted;
+    stats.counts.alive = list.count;
     renderer.draw(plan_frame(stage.scene, stage.view, stats, time_s, stage.geometry.model_lights), stage.view,
                   list, time_s);
     Drawn drawn{renderer.read_linear(), renderer.read_display()};
@@ -66,13 +76,18 @@ Drawn draw_stage(const Stage& stage, double time_s)
     return drawn;
 }
 
-}  // namespace
-
-Context& test_context()
+Drawn draw_stage(const Stage& stage, double time_s, FlakeBuffers::Access access)
 {
-    static const std::unique_ptr<Context> context = make_headless_context();
-    return *context;
+    test_context();
+    const FlakeBuffers buffers(std::max<std::size_t>(stage.places.size(), 1), access);
+    fill(stage, buffers);
+    DrawList list;
+    list.count = stage.places.size();
+    list.sorted = stage.sorted;
+    return draw_buffers(stage, buffers, list, time_s);
 }
+
+}  // namespace
 
 Stage::Stage()
 {
@@ -137,14 +152,19 @@ void Stage::add_box(const Vec3f& low, const Vec3f& high, const scene::Material& 
     geometry.meshes.push_back(std::move(mesh));
 }
 
-image::Image Stage::draw(double time_s) const
+image::Image Stage::draw(double time_s, FlakeBuffers::Access access) const
 {
-    return draw_stage(*this, time_s).linear;
+    return draw_stage(*this, time_s, access).linear;
+}
+
+image::Image Stage::draw_from(const FlakeBuffers& buffers, const DrawList& list) const
+{
+    return draw_buffers(*this, buffers, list, 0).linear;
 }
 
 image::Image Stage::draw_and_keep(const std::string& name, double time_s) const
 {
-    Drawn drawn = draw_stage(*this, time_s);
+    Drawn drawn = draw_stage(*this, time_s, FlakeBuffers::Access::mapped);
     keep_picture(name, drawn.display);
     return std::move(drawn.linear);
 }

@@ -43,7 +43,9 @@ struct Stage
 
     void add_box(const Vec3f& low, const Vec3f& high, const scene::Material& material);
 
-    image::Image draw(double time_s = 0) const;
+    image::Image draw(double time_s = 0, FlakeBuffers::Access access = FlakeBuffers::Access::mapped) const;
+    /// Draws flakes that somebody else has put into these buffers.
+    image::Image draw_from(const FlakeBuffers& buffers, const DrawList& list) const;
     /// Draws, and keeps the display picture in the folder for temporary files, for people to look at.
     image::Image draw_and_keep(const std::string& name, double time_s = 0) const;
 };

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <memory>
+#include <tuple>
 
 #include "gl/context.h"
 #include "image/compare.h"
@@ -38,7 +39,16 @@ bool updating()
     return value != nullptr && std::string(value) == "1";
 }
 
-class Golden : public testing::TestWithParam<Showing>
+/// A scene and how its flakes are drawn: one picture for both ways.
+using ShowingAndPath = std::tuple<Showing, scene::FlakePath>;
+
+std::string name_of(const ShowingAndPath& param)
+{
+    const bool tiles = std::get<1>(param) == scene::FlakePath::tiles;
+    return std::get<0>(param).name + (tiles ? "_tiles" : "_raster");
+}
+
+class Golden : public testing::TestWithParam<ShowingAndPath>
 {
   protected:
     static void SetUpTestSuite() { context_ = gl::make_headless_context(); }
@@ -76,8 +86,10 @@ image::Image8 developed(const image::Image& linear, double exposure)
 
 TEST_P(Golden, LooksAsItDid)
 {
-    const std::string& name = GetParam().name;
-    const Shown shown = show(GetParam());
+    Showing showing = std::get<0>(GetParam());
+    showing.path = std::get<1>(GetParam());
+    const std::string& name = showing.name;
+    const Shown shown = show(showing);
     EXPECT_EQ(shown.errors, "");
     EXPECT_GT(shown.drawn, 0U);
 
@@ -85,12 +97,12 @@ TEST_P(Golden, LooksAsItDid)
     fmt::print(
         "{}: {} flakes drawn; reference: {:.3f} % of pixels off by more than 1e-2, relative L2 of the others "
         "{:.2e}\n",
-        name, shown.drawn, 100 * truth.share_above, truth.rest_relative_l2);
+        name_of(GetParam()), shown.drawn, 100 * truth.share_above, truth.rest_relative_l2);
     EXPECT_LE(truth.share_above, kMostShareOff);
     EXPECT_LE(truth.rest_relative_l2, kMostRelativeL2);
 
-    const std::string kept = testing::TempDir() + "spindrift-" + name;
-    if (updating())
+    const std::string kept = testing::TempDir() + "spindrift-" + name_of(GetParam());
+    if (updating() && showing.path == scene::FlakePath::raster)
         update(name, shown.display);
     else if (driver() != recorded_driver())
         fmt::print("{}: the picture is of \"{}\", this driver is \"{}\": only the reference decides\n", name,
@@ -111,11 +123,13 @@ TEST_P(Golden, LooksAsItDid)
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Golden,
-                         testing::Values(Showing{"town", 40'000, 320, 180, 1},
-                                         Showing{"canyon", 20'000, 320, 180, 8},
-                                         Showing{"sheet", 4'000, 320, 180, 4},
-                                         Showing{"calm", 4'000, 320, 180, 1}),
-                         [](const testing::TestParamInfo<Showing>& tested) { return tested.param.name; });
+                         testing::Combine(testing::Values(Showing{"town", 40'000, 320, 180, 1},
+                                                          Showing{"canyon", 20'000, 320, 180, 8},
+                                                          Showing{"sheet", 4'000, 320, 180, 4},
+                                                          Showing{"calm", 4'000, 320, 180, 1}),
+                                          testing::Values(scene::FlakePath::raster, scene::FlakePath::tiles)),
+                         [](const testing::TestParamInfo<ShowingAndPath>& tested)
+                         { return name_of(tested.param); });
 
 }  // namespace
 }  // namespace spindrift::golden

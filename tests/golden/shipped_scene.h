@@ -20,11 +20,12 @@ struct Showing
     std::uint64_t particles = 4000;
     int width_px = 320, height_px = 180;
     double time_s = 1;
+    scene::FlakePath path = scene::FlakePath::raster;
 };
 
 inline void PrintTo(const Showing& showing, std::ostream* out)
 {
-    *out << showing.name;
+    *out << showing.name << (showing.path == scene::FlakePath::tiles ? " in tiles" : "");
 }
 
 struct Shown

@@ -89,7 +89,8 @@ void expect_errors(const std::vector<Case>& cases)
 TEST(SceneErrors, UnknownNamesTheNearest)
 {
     const std::string tables =
-        "use scene, domain, particles, snow, wind, vehicle, emitter, ground, box, model, voxels, light, sky, "
+        "use scene, domain, particles, simulation, snow, wind, vehicle, emitter, ground, box, model, voxels, "
+        "light, sky, "
         "camera or render";
     expect_errors({
         {with("[scene]\nsede = 4\n"),
@@ -118,8 +119,9 @@ TEST(SceneErrors, WrongTypes)
         {with(wind + "[1]\n"), "s.toml:11: wind.speed_m_s = [1] is a list, not a number" + speed},
         {with("[wind]\nsource = 4\n"),
          "s.toml:10: wind.source = 4 is a number, not a text (still air, one velocity, a logarithmic "
-         "profile, or a wind "
-         "model's files); use calm, uniform, log or file"},
+         "profile, a wind model's files, or a wind that is solved for round what stands there); use calm, "
+         "uniform, "
+         "log, file or solve"},
         {with("[wind]\nsource = \"log\"\nspeed_m_s = 1\nturbulence = 1\n"),
          "s.toml:12: wind.turbulence = 1 is a number, not true or false (gusts: of the neutral surface "
          "layer, or of "
@@ -404,7 +406,7 @@ TEST(SceneErrors, ChoicesNameTheNearest)
              kSorts},
         {with("[render]\nsort_passes_per_frame = 0\n"),
          "s.toml:10: render.sort_passes_per_frame = 0 is below 1 (steps of bitonic-passes and "
-         "odd-even-passes; also --sort-passes); use 1 to 4096"},
+         "odd-even-passes; also --sort-passes); use a whole number, 1 to 4096"},
         {with("[snow]\ncrystal = \"dendrite\"\n"),
          "s.toml:10: snow.crystal = \"dendrite\" is not among the choices (nearest: dendrites); use "
          "dendrites, plates, rimed or "
@@ -418,13 +420,13 @@ TEST(SceneErrors, Contradictions)
 {
     expect_errors({
         {with("[wind]\nsource = \"log\"\nspeed_m_s = 3\nfriction_velocity_m_s = 0.3\n"),
-         "s.toml:11: wind.speed_m_s = 3 has no effect here (it counts only with source = \"uniform\", or "
-         "\"log\" without "
-         "friction_velocity_m_s); remove it, or make that so"},
+         "s.toml:11: wind.speed_m_s = 3 has no effect here (it counts only with source = \"uniform\", source "
+         "or profile = \"log\" without friction_velocity_m_s, or profile = \"power\"); remove it, or make "
+         "that so"},
         {with("[wind]\nspeed_m_s = 3\n"),
-         "s.toml:10: wind.speed_m_s = 3 has no effect here (it counts only with source = \"uniform\", or "
-         "\"log\" without "
-         "friction_velocity_m_s); remove it, or make that so"},
+         "s.toml:10: wind.speed_m_s = 3 has no effect here (it counts only with source = \"uniform\", source "
+         "or profile = \"log\" without friction_velocity_m_s, or profile = \"power\"); remove it, or make "
+         "that so"},
         {with("[wind]\nsource = \"log\"\nspeed_m_s = 3\nreference_height_m = 1\nroughness_m = 2\n"),
          "s.toml:12: wind.reference_height_m = 1 is not above roughness_m (the profile is 0 there); use a "
          "larger height or a "

@@ -1,0 +1,119 @@
+#!/bin/bash
+# SPDX-License-Identifier: MIT
+# On a machine with a CUDA device: builds for it, runs every CUDA test, and measures, in one go and under nine minutes. What it
+# finds stays in docs/results/: gpu-CARD.json (machine, tests, what was left out) and one gpu-CARD-TOPIC.json a topic.
+# Environment:
+#   SPINDRIFT_GPU_ARCH=native   CUDA architectures to build for, as CMake takes them
+#   SPINDRIFT_GPU_BUDGET_S=530  seconds for everything; topics for which no time is left are named
+#   SPINDRIFT_GPU_SMALL=1       small sizes only, into build/gpu-results/: a rehearsal, its times mean nothing
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+architectures=${SPINDRIFT_GPU_ARCH:-native}
+budget_s=${SPINDRIFT_GPU_BUDGET_S:-530}
+small=${SPINDRIFT_GPU_SMALL:-}
+build=build/gpu
+results=docs/results
+[[ -z $small ]] || results=build/gpu-results
+mkdir -p "$build" "$results"
+
+say() { printf '\n== %s (%d s)\n' "$*" $SECONDS; }
+left_s() { echo $((budget_s - SECONDS)); }
+plain() { tr -c '[:alnum:].+ \n-' ' ' | tr -s ' ' | sed 's/^ //; s/ $//'; }  # fit for JSON and for --benchmark_context
+
+ask_gpu() { nvidia-smi --id=0 --query-gpu="$1" --format=csv,noheader 2> /dev/null | head -1 | plain || true; }
+gpu=$(ask_gpu name)
+gpu=${gpu:-unknown GPU}
+card=$(tr '[:upper:] ' '[:lower:]-' <<< "$gpu")
+driver=$(ask_gpu driver_version)
+clocks=$(ask_gpu clocks.max.sm,clocks.max.mem)
+cpu=$(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -1 | plain)
+toolkit=$(nvcc --version | sed -n 's/.*release \([0-9.]*\).*/\1/p')
+commit=$(git rev-parse --short=12 HEAD 2> /dev/null || echo unknown)
+[[ -z $(git status --porcelain 2> /dev/null) ]] || commit+="+changes"
+left_out=()
+
+build_all()
+{
+    say "build for $architectures"
+    cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSPINDRIFT_CUDA=ON -DCMAKE_CUDA_ARCHITECTURES="$architectures" \
+        > "$build/configure.log" 2>&1 || { cat "$build/configure.log" >&2; exit 1; }
+    timeout "$(left_s)" cmake --build "$build" --target cuda_tests spindrift spindrift-bench > "$build/build.log" 2>&1 ||
+        { tail -40 "$build/build.log" >&2; exit 1; }
+}
+
+# Goes on after a failure: what can be measured is still worth having. The exit code tells at the end.
+tests=unknown
+failed=0
+run_tests()
+{
+    say "tests"
+    SPINDRIFT_REQUIRE_CUDA=1 timeout "$(left_s)" ctest --test-dir "$build" -L cuda --output-on-failure > "$build/tests.log" 2>&1 || failed=1
+    grep -E '^[0-9]+% tests passed|\*\*\*' "$build/tests.log" || tail -5 "$build/tests.log"
+    tests=$(sed -n 's/^\([0-9]*% tests passed.*\)/\1/p' "$build/tests.log" | plain)
+}
+
+# measure TOPIC FILTER SMALL_FILTER: the rows of spindrift-bench that match
+measure()
+{
+    local topic=$1 filter=$2 log=$build/bench-$1.log
+    [[ -z $small ]] || filter=$3
+    local bench=$build/bench/spindrift-bench
+    say "bench: $topic"
+    if ! "$bench" --benchmark_list_tests --benchmark_filter="$filter" 2> /dev/null | grep -q .; then
+        left_out+=("$topic: no row matches $filter")
+    elif (($(left_s) < 20)); then
+        left_out+=("$topic: no time left")
+    elif ! timeout "$(left_s)" "$bench" --benchmark_filter="$filter" --benchmark_out="$build/$topic.json" --benchmark_out_format=json \
+        --benchmark_context="gpu=$gpu,driver=$driver,cuda=$toolkit,cpu=$cpu,commit=$commit" > "$log" 2>&1; then
+        left_out+=("$topic: failed or ran out of time")
+        failed=1
+        tail -5 "$log"
+    else
+        cp "$build/$topic.json" "$results/gpu-$card-$topic.json"
+        cat "$log"
+    fi
+}
+
+# run TOPIC OPTION...: statistics of a run that draws
+run()
+{
+    local topic=$1 size=1280x720 particles=1000000 frames=120
+    if [[ -n $small ]]; then size=160x90 particles=2000 frames=2; fi
+    say "run: $topic"
+    if (($(left_s) < 20)); then
+        left_out+=("$topic: no time left")
+    elif ! timeout "$(left_s)" "$build/spindrift" run scenes/town.toml --headless --particles $particles --size $size --frames $frames \
+        --out "$build/$topic.png" --stats "$build/$topic.json" "${@:2}" > "$build/run-$topic.log" 2>&1; then
+        left_out+=("$topic: $(tail -1 "$build/run-$topic.log" | plain)")
+    else
+        cp "$build/$topic.json" "$results/gpu-$card-$topic.json"
+        tail -2 "$build/run-$topic.log"
+    fi
+}
+
+build_all
+say "machine"
+"$build/spindrift" info
+run_tests
+measure sorts '^sort/.*/cuda/' '^sort/random/15K/cuda/'
+measure advect '^advect/.*cuda' '^advect/.*cuda'
+measure frames '^frame/.*cuda' '^frame/.*cuda'
+run town-shared --backend cuda --interop on
+run town-copied --backend cuda --interop off
+run town-cpu --backend cpu
+
+{
+    printf '{\n  "gpu": "%s",\n  "driver": "%s",\n  "max_clocks": "%s",\n  "cuda": "%s",\n' "$gpu" "$driver" "$clocks" "$toolkit"
+    printf '  "cpu": "%s",\n  "threads": %d,\n  "commit": "%s",\n  "date": "%s",\n' "$cpu" "$(nproc)" "$commit" "$(date -u +%F)"
+    printf '  "architectures": "%s",\n  "tests": "%s",\n  "seconds": %d,\n  "left_out": [' "$architectures" "$tests" $SECONDS
+    separator=
+    for what in "${left_out[@]}"; do
+        printf '%s"%s"' "$separator" "$(plain <<< "$what")"
+        separator=', '
+    done
+    printf ']\n}\n'
+} > "$results/gpu-$card.json"
+say "done: $results/gpu-$card*.json"
+cat "$results/gpu-$card.json"
+exit $failed

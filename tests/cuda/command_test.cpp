@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// The command on a CUDA device, from outside: the picture and the hash are the processor's, whichever way the
+// flakes come to OpenGL.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "image/write.h"
+#include "tests/app/child_process.h"
+#include "tests/app/command_fixture.h"
+#include "tests/cuda/device_fixture.h"
+
+namespace spindrift::test
+{
+
+namespace
+{
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class CudaCommand : public Command
+{
+  protected:
+    void SetUp() override { gpu::require_device(); }
+
+    struct Drawn
+    {
+        std::vector<unsigned char> rgb;
+        json stats;
+    };
+
+    Drawn draw(const std::string& scene, std::vector<std::string> more)
+    {
+        more.insert(more.begin(),
+                    {"run", scene, "--headless", "--frames", "2", "--particles", "1500", "--size", "160x90",
+                     "--out", in_folder("x.png"), "--stats", in_folder("x.json")});
+        const Finished run = run_command(more);
+        EXPECT_EQ(run.exit_code, 0) << run.error;
+        if (run.exit_code != 0) return {};
+        return {image::read_png(in_folder("x.png")).rgb, json::parse(read(in_folder("x.json")))};
+    }
+};
+
+/// The machine has no device as far as this run can see.
+Launch without_device(std::vector<std::string> arguments)
+{
+    Launch launch;
+    launch.arguments = std::move(arguments);
+    launch.environment = {"CUDA_VISIBLE_DEVICES="};
+    launch.unset = {"LD_LIBRARY_PATH", "LD_PRELOAD"};  // the toolkit's own runtime
+    return launch;
+}
+
+TEST_F(CudaCommand, DrawsTheProcessorsPictureOnBothWaysToGl)
+{
+    const std::string canyon = SPINDRIFT_SOURCE_DIR "/scenes/canyon.toml";
+    const Drawn cpu = draw(canyon, {"--backend", "cpu"});
+    const Drawn shared = draw(canyon, {"--backend", "cuda", "--interop", "on"});
+    const Drawn copied = draw(canyon, {"--backend", "cuda", "--interop", "off"});
+    ASSERT_FALSE(HasFailure());
+    EXPECT_GT(cpu.stats.at("draw_list").at("drawn_median"), 100);
+    for (const Drawn* drawn : {&shared, &copied})
+    {
+        EXPECT_EQ(drawn->rgb, cpu.rgb);
+        EXPECT_EQ(drawn->stats.at("state_hash"), cpu.stats.at("state_hash"));
+        EXPECT_EQ(drawn->stats.at("counts"), cpu.stats.at("counts"));
+        EXPECT_EQ(drawn->stats.at("backend").at("name"), "cuda");
+        EXPECT_EQ(drawn->stats.at("gl_errors"), "");
+    }
+    EXPECT_EQ(shared.stats.at("interop").at("shared"), true);
+    EXPECT_THAT(shared.stats.at("interop").at("why").get<std::string>(), HasSubstr("probed"));
+    EXPECT_THAT(shared.stats.at("flake_memory").get<std::string>(), HasSubstr("in place"));
+    EXPECT_EQ(copied.stats.at("interop").at("shared"), false);
+    EXPECT_THAT(copied.stats.at("interop").at("why").get<std::string>(), HasSubstr("--interop off"));
+    EXPECT_THAT(copied.stats.at("flake_memory").get<std::string>(), HasSubstr("page-locked"));
+}
+
+TEST_F(CudaCommand, InfoNamesTheDeviceAndTheWayToGl)
+{
+    const Finished run = run_command({"info"});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    EXPECT_THAT(run.output, AllOf(HasSubstr("CUDA"), HasSubstr("in place"), HasSubstr("probed")));
+}
+
+TEST_F(CudaCommand, AMachineWithoutDevicesIsToldSoInOneLine)
+{
+    const Finished run = run_command(
+        without_device({"run", small_scene(), "--headless", "--steps", "1", "--backend", "cuda"}));
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_THAT(run.error,
+                AllOf(HasSubstr("--backend cuda"), HasSubstr("cudaError"), HasSubstr("--backend cpu")));
+    EXPECT_EQ(std::count(run.error.begin(), run.error.end(), '\n'), 1);
+}
+
+TEST_F(CudaCommand, AutoGoesOnWithoutDevicesAndSaysWhy)
+{
+    const Finished run = run_command(
+        without_device({"run", small_scene(), "--headless", "--steps", "1", "--stats", in_folder("s.json")}));
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    const json backend = json::parse(read(in_folder("s.json"))).at("backend");
+    EXPECT_EQ(backend.at("name"), "cpu");
+    EXPECT_THAT(backend.at("why").get<std::string>(), HasSubstr("cudaError"));
+}
+
+}  // namespace
+
+}  // namespace spindrift::test
