@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "cpu/cpu_backend.h"
+#include "cpu/wind_projection.h"
 #include "image/compare.h"
 #include "scene/make_world.h"
 
@@ -17,7 +18,7 @@ namespace spindrift::app
 CameraPath::CameraPath(scene::Scene scene)
     : scene_(std::move(scene)),
       geometry_(scene::read_geometry(scene_)),
-      world_(scene::make_world(scene_, geometry_)),
+      world_(scene::make_world(scene_, geometry_, cpu::project_wind())),
       clock_{scene_.render.warm_up_s, scene_.render.frames_per_s, world_.step_s}
 {
     try

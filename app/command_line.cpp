@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/command_line.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -33,8 +34,10 @@ Examples:
   spindrift run town --headless --out town.mp4 --out town.png
   spindrift run my.toml --headless --out 'f_%04d.exr' --size 1920x1080 --frames 240
   spindrift run two-blocks --wind F_windsWk.nc --turbulence F_turbOut.nc
+  spindrift wind town -o wind.nc                             solve for its wind, for ParaView, xarray and QES-Plume
   spindrift explain town                                     what a frame does and why
   spindrift sorts --scene town                               which sort suits this machine and scene
+  spindrift run plow --headless --beside-ldr --out plow.png  low beside high dynamic range
 )";
 
 constexpr const char* kRunExamples = R"(
@@ -76,6 +79,19 @@ Size parse_size(const std::string& text)
             "--size", fmt::format("{} is no size; use WIDTHxHEIGHT in pixels, each 1 to {}, such as 1280x720",
                                   text, kMost));
     return size;
+}
+
+/// "640,360"
+std::array<int, 2> parse_pixel(const std::string& text)
+{
+    int end = 0;
+    std::array<int, 2> pixel{};
+    const int fields = std::sscanf(text.c_str(), "%6d,%6d%n", &pixel[0], &pixel[1], &end);
+    if (fields != 2 || end != static_cast<int>(text.size()) || pixel[0] < 0 || pixel[1] < 0)
+        throw CLI::ValidationError(
+            "--pixel",
+            fmt::format("{} is no pixel; use COLUMN,ROW from the upper left, such as 640,360", text));
+    return pixel;
 }
 
 void check_rate(double frames_per_s)
@@ -134,6 +150,21 @@ void add_sort_passes(CLI::App& command, scene::SceneOverrides& scene, const char
         ->group(group);
 }
 
+void add_wind_files(CLI::App& command, scene::SceneOverrides& scene)
+{
+    const char* group = "The scene, changed";
+    command
+        .add_option("--wind", scene.winds_file,
+                    "Wind field: a file of QES-Winds (*_windsWk.nc) or of spindrift wind")
+        ->type_name("FILE")
+        ->group(group);
+    command
+        .add_option("--turbulence", scene.turbulence_file,
+                    "Its turbulence: *_turbOut.nc, or that of spindrift wind")
+        ->type_name("FILE")
+        ->group(group);
+}
+
 /// Options that change the scene, which run, explain and sorts share.
 void add_scene_options(CLI::App& command, scene::SceneOverrides& scene)
 {
@@ -145,12 +176,7 @@ void add_scene_options(CLI::App& command, scene::SceneOverrides& scene)
         ->check(CLI::PositiveNumber)
         ->group(group);
     command.add_option("--seed", scene.seed, "Seed of every random number")->type_name("X")->group(group);
-    command.add_option("--wind", scene.winds_file, "Wind field: a QES-Winds file *_windsWk.nc")
-        ->type_name("FILE")
-        ->group(group);
-    command.add_option("--turbulence", scene.turbulence_file, "Its turbulence: *_turbOut.nc")
-        ->type_name("FILE")
-        ->group(group);
+    add_wind_files(command, scene);
     command
         .add_option_function<std::string>(
             "--size",
@@ -186,6 +212,13 @@ void add_scene_options(CLI::App& command, scene::SceneOverrides& scene)
         ->check(CLI::Range(0, 1000000))
         ->group(group);
     add_sort_passes(command, scene, group);
+    command
+        .add_option(
+            "--flake-path", scene.flake_path,
+            "How blended flakes are drawn: raster, tiles (by the processor), or auto: tiles on software GL")
+        ->type_name("P")
+        ->check(CLI::IsMember({"auto", "raster", "tiles"}))
+        ->group(group);
 }
 
 void add_sort(CLI::App& command, scene::SceneOverrides& scene)
@@ -225,6 +258,27 @@ void add_run(CLI::App& app, RunOptions& options)
                     "Where the pictures go: x.mp4, x_%04d.png or .exr (every frame), x.png or .exr (the "
                     "last). May be repeated")
         ->type_name("PATTERN")
+        ->allow_extra_args(false)
+        ->group(output);
+    command
+        .add_flag("--beside-ldr", options.beside_ldr,
+                  "Pictures twice as wide: on the left what 8 bits would hold, without bloom or curve")
+        ->group(output);
+    command
+        .add_option("--luminance", options.luminance,
+                    "Luminance of the pixels of --pixel in cd/m2, frame by frame, as CSV; the scene's "
+                    "[display] must be calibrated")
+        ->type_name("FILE")
+        ->group(output);
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--pixel",
+            [&options](const std::vector<std::string>& texts)
+            {
+                for (const std::string& text : texts) options.pixels.push_back(parse_pixel(text));
+            },
+            "A pixel for --luminance: column and row from the upper left. May be repeated")
+        ->type_name("X,Y")
         ->allow_extra_args(false)
         ->group(output);
     command.add_option("--stats", options.stats, "Counts, hash, times and what was skipped, as JSON")
@@ -338,6 +392,52 @@ void add_sorts(CLI::App& app, SortsOptions& options)
     add_backend(command, options.backend, "The machine");
 }
 
+void add_wind(CLI::App& app, WindOptions& options)
+{
+    CLI::App& command =
+        *app.add_subcommand("wind", "Solve for the mean wind of a scene and write it to a file");
+    command.add_option("scene", options.scene, "A TOML file, or the name of a shipped scene")
+        ->required()
+        ->type_name("SCENE");
+    command
+        .add_option("-o,--out", options.out, "NetCDF file: CF cell means, and the faces that QES-Plume reads")
+        ->required()
+        ->type_name("FILE");
+    add_wind_files(command, options.overrides);
+    command.add_option("--threads", options.threads, "Threads of the solver; 0: one per core")
+        ->type_name("T")
+        ->check(CLI::Range(0, 1024));
+    static const std::map<std::string, bool> kMethods = {{"multigrid", false}, {"sor", true}};
+    command
+        .add_option(
+            "--method", options.relax,
+            "multigrid (conjugate gradients with a multigrid cycle), or sor (red-black over-relaxation, for "
+            "comparison)")
+        ->type_name("M")
+        ->transform(CLI::Transformer(kMethods).description(""));
+}
+
+void add_calibrate(CLI::App& app, CalibrateOptions& options)
+{
+    CLI::App& command = *app.add_subcommand(
+        "calibrate", "Repeat the report's experiment: grey of a black rectangle by particles per second");
+    command.add_option("scene", options.scene, "A scene like sheet")
+        ->type_name("SCENE")
+        ->capture_default_str();
+    command.add_option("--csv", options.csv, "The table, as CSV")->type_name("FILE");
+    command.add_option("--plot", options.plot, "Readings, fit and the report's table, as SVG")
+        ->type_name("FILE");
+    command.add_option("--frames", options.frames, "Frames that are averaged at each rate")
+        ->type_name("N")
+        ->check(CLI::Range(1, 10000))
+        ->capture_default_str();
+    command.add_option("--most", options.most_per_s, "Leave out higher rates")
+        ->type_name("PER_S")
+        ->check(CLI::Range(100.0, 1e6))
+        ->capture_default_str();
+    command.add_option("--seed", options.overrides.seed, "Seed of every random number")->type_name("X");
+}
+
 }  // namespace
 
 int run_command_line(int argc, char** argv)
@@ -351,10 +451,14 @@ int run_command_line(int argc, char** argv)
 
     RunOptions run_options;
     ExplainOptions explain_options;
+    CalibrateOptions calibrate_options;
     add_run(app, run_options);
     add_explain(app, explain_options);
     SortsOptions sorts_options;
     add_sorts(app, sorts_options);
+    WindOptions wind_options;
+    add_wind(app, wind_options);
+    add_calibrate(app, calibrate_options);
     app.add_subcommand("info", "Backend, processor, GL renderer and libraries of this build and machine");
     app.add_subcommand("scenes", "List the shipped scenes");
     try
@@ -369,6 +473,8 @@ int run_command_line(int argc, char** argv)
     if (app.got_subcommand("run")) return run(run_options);
     if (app.got_subcommand("explain")) return explain(explain_options);
     if (app.got_subcommand("sorts")) return study_sorts(sorts_options);
+    if (app.got_subcommand("wind")) return wind(wind_options);
+    if (app.got_subcommand("calibrate")) return calibrate(calibrate_options);
     if (app.got_subcommand("info")) return info();
     return list_scenes();
 }

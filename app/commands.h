@@ -10,6 +10,8 @@ namespace spindrift::app
 
 int run(const RunOptions& options);
 int explain(const ExplainOptions& options);
+int wind(const WindOptions& options);
+int calibrate(const CalibrateOptions& options);
 int info();
 int list_scenes();
 int study_sorts(const SortsOptions& options);

@@ -10,6 +10,7 @@
 #include "app/machine.h"
 #include "app/simulator.h"
 #include "cpu/snapshot_file.h"
+#include "cpu/wind_projection.h"
 #include "gl/context.h"
 #include "image/write.h"
 #include "scene/make_world.h"
@@ -52,7 +53,7 @@ struct Simulation::Impl
     Impl(const std::filesystem::path& file, const SimulationOptions& options)
         : scene(scene::read_scene(file, overrides(options))),
           geometry(scene::read_geometry(scene)),
-          world(scene::make_world(scene, geometry))
+          world(scene::make_world(scene, geometry, cpu::project_wind()))
     {
         const bool pictures = options.pictures == Pictures::on;
         if (pictures) context = gl::make_headless_context();
@@ -62,7 +63,9 @@ struct Simulation::Impl
         const cpu::CpuOptions cpu{options.threads, app::parse_simd(options.simd), scene.reorder_every_steps};
         auto backend = cpu::make_cpu_backend(world, flakes, memory->draw_list(), cpu);
         simulator = std::make_unique<app::Simulator>(std::move(memory), std::move(backend), log);
-        if (pictures) drawer = std::make_unique<app::FrameDrawer>(scene, geometry, world, *simulator, log);
+        if (pictures)
+            drawer = std::make_unique<app::FrameDrawer>(scene, geometry, world, *simulator, context->info(),
+                                                        cpu, log);
     }
 
     Backend& backend() const { return simulator->backend(); }

@@ -7,6 +7,7 @@
 #include "app/find_scene.h"
 #include "app/run_report.h"
 #include "core/flake.h"
+#include "cpu/wind_projection.h"
 #include "gl/frame_plan.h"
 #include "scene/make_world.h"
 
@@ -36,8 +37,8 @@ struct Explained
 
 MemoryNeed memory_need(const scene::Scene& scene, const World& world)
 {
-    // RGBA16F target, 32-bit depth, 8-bit display picture
-    constexpr std::uint64_t kBytesPerPixel = 8 + 4 + 4;
+    // RGBA16F target, 32-bit depth and its copy, 8-bit display picture
+    constexpr std::uint64_t kBytesPerPixel = 8 + 4 + 4 + 4;
     const auto pixels = static_cast<std::uint64_t>(scene.render.width_px) *
                         static_cast<std::uint64_t>(scene.render.height_px);
     return {world.capacity * (kStateBytesPerFlake + kDrawListBytesPerFlake),
@@ -52,12 +53,13 @@ Explained explain_scene(const ExplainOptions& options)
     const scene::Geometry geometry = scene::read_geometry(e.scene);
     for (const scene::Mesh& mesh : geometry.meshes)
         for (const scene::MeshPart& part : mesh.parts) e.triangles += part.indices.size() / 3;
-    e.world = scene::make_world(e.scene, geometry);
+    e.world = scene::make_world(e.scene, geometry, cpu::project_wind());
     e.lights = e.scene.lights.size() + geometry.model_lights.size();
 
     gl::FrameStats stats;
     stats.counts.alive = stats.counts.emitted = stats.drawn = e.world.capacity;
     const double time_s = e.scene.render.warm_up_s;
+    stats.brightest_emission = scene::brightest_emission(geometry);
     e.plan = gl::plan_frame(e.scene, scene::camera_at(e.scene, time_s), stats, time_s, geometry.model_lights);
     e.memory = memory_need(e.scene, e.world);
     return e;
@@ -125,7 +127,9 @@ void print_json(const Explained& e)
                           {"runs", p.runs},
                           {"why", p.reason},
                           {"reads", p.reads},
-                          {"writes", p.writes}});
+                          {"writes", p.writes},
+                          {"megabytes", p.cost.megabytes},
+                          {"million_elements", p.cost.million_elements}});
     Json skips = Json::array();
     for (const Skip& skip : simulation_skips(e.world, e.scene.reorder_every_steps))
         skips.push_back({{"what", skip.what}, {"why", skip.why}});

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "app/frame_drawer.h"
 
+#include "core/error.h"
+#include "cpu/tile_splatter.h"
+
 namespace spindrift::app
 {
 
@@ -19,16 +22,26 @@ bool same(const View& a, const View& b)
            a.near_m == b.near_m && a.far_m == b.far_m && a.guard_px == b.guard_px;
 }
 
+gl::GlKind gl_kind(const gl::ContextInfo& gl, const gl::FlakeBuffers& flakes)
+{
+    if (flakes.access() != gl::FlakeBuffers::Access::mapped) return gl::GlKind::out_of_reach;
+    return gl.software ? gl::GlKind::software : gl::GlKind::hardware;
+}
+
 }  // namespace
 
 FrameDrawer::FrameDrawer(const scene::Scene& scene, const scene::Geometry& geometry, const World& world,
-                         Simulator& simulator, StageLog& log)
+                         Simulator& simulator, const gl::ContextInfo& gl, const cpu::CpuOptions& cpu,
+                         StageLog& log)
     : scene_(scene),
       geometry_(geometry),
       simulator_(simulator),
       log_(log),
+      brightest_emission_(scene::brightest_emission(geometry)),
+      gl_(gl_kind(gl, *simulator.memory().drawn_from())),
+      splatter_(cpu::make_tile_splatter(cpu)),
       renderer_(scene, geometry, world, *simulator.memory().drawn_from(), scene.render.width_px,
-                scene.render.height_px)
+                scene.render.height_px, splatter_.get())
 {
 }
 
@@ -46,7 +59,9 @@ gl::FramePlan FrameDrawer::plan(const View& view, double time_s, const FlakeCoun
     stats.flakes_moved = stale_ || backend.step_number() != last_step_;
     stats.camera_moved = !last_view_ || !same(view, *last_view_);
     stats.drawn = list_.count;
-    return gl::plan_frame(scene_, view, stats, time_s, geometry_.model_lights);
+    stats.exposed = last_time_s_ == time_s;
+    stats.brightest_emission = brightest_emission_;
+    return gl::plan_frame(scene_, view, stats, time_s, geometry_.model_lights, gl_);
 }
 
 void FrameDrawer::draw(const View& view, double time_s)
@@ -64,6 +79,7 @@ void FrameDrawer::draw(const View& view, double time_s)
         list_ = {};
     stale_ = false;
     last_view_ = view;
+    last_time_s_ = time_s;
     last_step_ = simulator_.backend().step_number();
     drawn_.push_back(static_cast<float>(list_.count));
     culled_.push_back(static_cast<float>(list_.culled));

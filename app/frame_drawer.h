@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "app/plan_log.h"
 #include "app/simulator.h"
 #include "app/stage_log.h"
+#include "core/splatter.h"
+#include "cpu/cpu_backend.h"
+#include "gl/context.h"
 #include "gl/frame_plan.h"
 #include "gl/renderer.h"
 
@@ -18,9 +22,10 @@ namespace spindrift::app
 class FrameDrawer
 {
   public:
-    /// All arguments must outlive it. The simulator's memory must be one that GL draws from.
+    /// All arguments must outlive it. The simulator's memory must be one that GL draws from. `cpu`: with what
+    /// tiles are blended. Throws Error if the scene asks for tiles and the processor cannot read the flakes.
     FrameDrawer(const scene::Scene& scene, const scene::Geometry& geometry, const World& world,
-                Simulator& simulator, StageLog& log);
+                Simulator& simulator, const gl::ContextInfo& gl, const cpu::CpuOptions& cpu, StageLog& log);
 
     void draw(const View& view, double time_s);
 
@@ -43,10 +48,14 @@ class FrameDrawer
     const scene::Geometry& geometry_;
     Simulator& simulator_;
     StageLog& log_;
+    double brightest_emission_;
+    gl::GlKind gl_;
+    std::unique_ptr<Splatter> splatter_;
     gl::Renderer renderer_;
     PlanLog plans_;
     bool stale_ = true;  ///< the draw list must be made anew whatever moved
     std::optional<View> last_view_;
+    std::optional<double> last_time_s_;
     std::uint64_t last_step_ = 0;
     DrawList list_;
     std::vector<float> drawn_, culled_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -36,7 +37,10 @@ struct RunOptions
     std::optional<cpu::Simd> simd;
     std::optional<bool> cuda_graph;  ///< this one is CUDA's
     Interop interop = Interop::automatic;
-    std::optional<std::uint64_t> steps;  ///< simulate this many and draw nothing
+    std::optional<std::uint64_t> steps;      ///< simulate this many and draw nothing
+    bool beside_ldr = false;                 ///< pictures twice as wide: low dynamic range on the left
+    std::filesystem::path luminance;         ///< table of the pixels' luminance, frame by frame
+    std::vector<std::array<int, 2>> pixels;  ///< column and row from the upper left
     std::filesystem::path stats, save_snapshot, load_snapshot;
     bool hash = false;
 };
@@ -62,11 +66,30 @@ struct SortsOptions
     std::vector<std::filesystem::path> out;
 };
 
+/// What `spindrift calibrate` was asked for. Paths that are empty were not given.
+struct CalibrateOptions
+{
+    std::string scene = "sheet";
+    scene::SceneOverrides overrides;
+    int frames = 5;           ///< averaged at each rate
+    double most_per_s = 1e6;  ///< rates of the report's table up to here
+    std::filesystem::path csv, plot;
+};
+
 struct ExplainOptions
 {
     std::string scene;
     scene::SceneOverrides overrides;
     bool json = false;
+};
+
+struct WindOptions
+{
+    std::string scene;
+    scene::SceneOverrides overrides;
+    std::filesystem::path out;
+    int threads = 0;     ///< 0: one per core
+    bool relax = false;  ///< by red-black over-relaxation instead of multigrid
 };
 
 }  // namespace spindrift::app

@@ -28,19 +28,32 @@ const Picture& once(std::optional<Picture>& kept, StageLog& log, const Read& rea
 
 }  // namespace
 
-Outputs::Outputs(const std::vector<std::string>& patterns, const scene::RenderSettings& render)
+Outputs::Outputs(const std::vector<std::string>& patterns, const scene::RenderSettings& render, Beside beside)
+    : beside_(beside)
 {
+    const int width_px = beside == Beside::nothing ? render.width_px : 2 * render.width_px;
     std::set<std::string> seen;
     for (const std::string& pattern : patterns)
     {
         if (!seen.insert(pattern).second)
             throw Error(fmt::format("--out {}: is given twice; give each file once", pattern));
         writers_.push_back(
-            image::make_frame_writer(pattern, render.width_px, render.height_px, render.frames_per_s));
+            image::make_frame_writer(pattern, width_px, render.height_px, render.frames_per_s));
+        if (beside != Beside::nothing && writers_.back()->wants_linear())
+            throw Error(fmt::format(
+                "--out {}: --beside-ldr compares what is shown, not light; use .png or .mp4", pattern));
     }
 }
 
-void Outputs::add(const gl::Renderer& renderer, StageLog& log)
+image::Image8 Outputs::display_of(gl::Renderer& renderer) const
+{
+    image::Image8 picture = renderer.read_display();
+    if (beside_ == Beside::nothing) return picture;
+    renderer.develop_low_range();
+    return image::side_by_side(renderer.read_display(), picture);
+}
+
+void Outputs::add(gl::Renderer& renderer, StageLog& log)
 {
     std::optional<image::Image> linear;
     std::optional<image::Image8> display;
@@ -54,7 +67,7 @@ void Outputs::add(const gl::Renderer& renderer, StageLog& log)
         }
         else
         {
-            const image::Image8& picture = once(display, log, [&] { return renderer.read_display(); });
+            const image::Image8& picture = once(display, log, [&] { return display_of(renderer); });
             const StageTimer timer(log, "encode");
             writer->add(picture);
         }

@@ -13,6 +13,7 @@
 #include "app/sort_choice.h"
 #include "app/window_loop.h"
 #include "core/error.h"
+#include "cpu/wind_projection.h"
 #include "image/whole_file.h"
 #include "scene/make_world.h"
 
@@ -29,6 +30,12 @@ void check_combinations(const RunOptions& options)
     if (options.steps && !options.headless) throw Error("--steps draws nothing; add --headless");
     if (!options.out.empty() && !options.headless)
         throw Error("--out writes pictures without a window; add --headless");
+    if (options.beside_ldr && options.out.empty())
+        throw Error("--beside-ldr changes the pictures of --out, and there are none; add --out");
+    if (options.luminance.empty() != options.pixels.empty())
+        throw Error("--luminance and --pixel go together; give both");
+    if (!options.luminance.empty() && options.out.empty())
+        throw Error("--luminance reads pictures, and none is drawn; add --out");
     if (options.interop == Interop::on && options.headless && options.out.empty())
         throw Error(
             "--interop on: nothing is drawn without --out, so there is no GL memory to share; add --out");
@@ -37,7 +44,7 @@ void check_combinations(const RunOptions& options)
 /// A run must not find out at its end that its files cannot be written.
 void check_files(const RunOptions& options)
 {
-    for (const auto& file : {options.stats, options.save_snapshot})
+    for (const auto& file : {options.stats, options.save_snapshot, options.luminance})
         if (!file.empty()) const image::AsideFile probe(file);
 }
 
@@ -48,7 +55,7 @@ RunInput read_input(const RunOptions& options)
     if (options.depth_bits) scene.render.depth_bits = *options.depth_bits;
     scene.render.sort = choose_sort(choice.name, scene.render.sort);
     scene::Geometry geometry = scene::read_geometry(scene);
-    World world = scene::make_world(scene, geometry);
+    World world = scene::make_world(scene, geometry, cpu::project_wind());
     return {std::move(scene), std::move(geometry), std::move(world), choice};
 }
 
@@ -67,6 +74,7 @@ void print_summary(const RunState& run)
                r.steps, r.frames, r.wall_s, r.counts.alive, r.counts.emitted,
                r.interrupted ? " (interrupted)" : "");
     for (const std::string& file : r.outputs) fmt::print("wrote {}\n", file);
+    if (!run.options.luminance.empty()) fmt::print("wrote {}\n", run.options.luminance.string());
     if (!run.options.stats.empty()) fmt::print("wrote {}\n", run.options.stats.string());
     if (!run.options.save_snapshot.empty()) fmt::print("wrote {}\n", run.options.save_snapshot.string());
     if (run.options.hash) fmt::print("hash {}\n", hash_text(r.state_hash));
@@ -80,7 +88,8 @@ void run_loop(RunState& run)
         run.report.no_gl_because = "nothing is drawn: --headless without --out";
         return simulate_only(run);
     }
-    Outputs outputs(run.options.out, run.input.scene.render);
+    Outputs outputs(run.options.out, run.input.scene.render,
+                    run.options.beside_ldr ? Beside::low_range : Beside::nothing);
     draw_headless(run, outputs);
     if (run.report.frames > 0) run.report.outputs = run.options.out;
 }
@@ -94,12 +103,13 @@ int run(const RunOptions& options)
     if (!options.headless) require_display();
     const auto start = std::chrono::steady_clock::now();
     const RunInput input = read_input(options);
-    RunState run{options, input, {}, {}, {}};
+    RunState run{options, input, {}, {}, LuminanceLog(input.scene, options.pixels), {}};
     describe_machine(run);
     run_loop(run);
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     run.report.wall_s = wall.count();
 
+    if (!options.luminance.empty()) image::write_whole(options.luminance, run.luminance.csv());
     if (!options.stats.empty()) write_report(options.stats, run.report, input.scene, input.world);
     print_summary(run);
     if (!run.report.gl_errors.empty()) throw std::runtime_error("GL reported: " + run.report.gl_errors);

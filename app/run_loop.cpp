@@ -102,6 +102,7 @@ void draw_frames(RunState& run, Simulator& simulator, FrameDrawer& drawer, const
         if (!advance(run, simulator, clock.steps_before(k))) return;
         const double time_s = clock.time_s(k);
         drawer.draw(scene::camera_at(run.input.scene, time_s), time_s);
+        run.luminance.add(drawer.renderer(), k, time_s);
         outputs.add(drawer.renderer(), run.log);
         run.report.frames = k + 1;
         bar.show(k + 1);
@@ -116,7 +117,8 @@ void draw_headless(RunState& run, Outputs& outputs)
     run.report.gl = context->info();
     const auto simulator = start_simulator(run, Drawing::on);
     const FrameClock clock = make_clock(run.input, simulator->backend().step_number());
-    FrameDrawer drawer(run.input.scene, run.input.geometry, run.input.world, *simulator, run.log);
+    FrameDrawer drawer(run.input.scene, run.input.geometry, run.input.world, *simulator, context->info(),
+                       cpu_options(run.options), run.log);
 
     warm_up(run, *simulator, clock.steps_before(0));
     draw_frames(run, *simulator, drawer, clock, outputs);

@@ -7,6 +7,7 @@
 #include "app/engine.h"
 #include "app/frame_clock.h"
 #include "app/interrupt.h"
+#include "app/luminance_log.h"
 #include "app/options.h"
 #include "app/outputs.h"
 #include "app/run_report.h"
@@ -34,6 +35,7 @@ struct RunState
     const RunInput& input;
     InterruptWatch interrupt;
     StageLog log;
+    LuminanceLog luminance;
     RunReport report;
 };
 

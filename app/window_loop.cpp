@@ -51,7 +51,8 @@ class WindowRun
         : run_(run),
           window_(window),
           simulator_(simulator),
-          drawer_(run.input.scene, run.input.geometry, run.input.world, simulator, run.log),
+          drawer_(run.input.scene, run.input.geometry, run.input.world, simulator, window.info(),
+                  cpu_options(run.options), run.log),
           anchors_(camera_anchors(run.input)),
           time_s_(make_clock(run.input, simulator.backend().step_number()).start_s)
     {

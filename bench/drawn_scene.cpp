@@ -8,6 +8,8 @@
 
 #include "core/snow.h"
 #include "cpu/cpu_backend.h"
+#include "cpu/tile_splatter.h"
+#include "cpu/wind_projection.h"
 #include "reference/reference.h"
 #include "scene/make_world.h"
 
@@ -32,10 +34,12 @@ DrawnScene::DrawnScene(const std::string& name, std::uint64_t particles, int wid
     : context_(gl::make_headless_context()),
       scene_(shipped_scene(name, particles, width_px, height_px)),
       geometry_(scene::read_geometry(scene_)),
-      world_(scene::make_world(scene_, geometry_)),
+      world_(scene::make_world(scene_, geometry_, cpu::project_wind())),
       buffers_(std::make_unique<gl::FlakeBuffers>(world_.capacity)),
       backend_(cpu::make_cpu_backend(world_, buffers_->flakes(), buffers_->draw_list(), {})),
-      renderer_(std::make_unique<gl::Renderer>(scene_, geometry_, world_, *buffers_, width_px, height_px))
+      splatter_(cpu::make_tile_splatter({})),
+      renderer_(std::make_unique<gl::Renderer>(scene_, geometry_, world_, *buffers_, width_px, height_px,
+                                               splatter_.get()))
 {
 }
 
@@ -50,7 +54,9 @@ void DrawnScene::prepare()
     view_ = scene::camera_at(scene_, time_s_);
     gl::FrameStats stats;
     stats.counts = backend_->counts();
-    plan_ = gl::plan_frame(scene_, view_, stats, time_s_, geometry_.model_lights);
+    stats.brightest_emission = scene::brightest_emission(geometry_);
+    plan_ = gl::plan_frame(scene_, view_, stats, time_s_, geometry_.model_lights,
+                           context_->info().software ? gl::GlKind::software : gl::GlKind::hardware);
     SortSettings sort;
     sort.strategy = plan_.runs("sort") ? scene_.render.sort : "none";
     sort.depth_bits = scene_.render.depth_bits;
@@ -63,11 +69,16 @@ void DrawnScene::draw()
     glFinish();
 }
 
-void DrawnScene::draw_pass(std::string_view name)
+void DrawnScene::draw_passes(std::initializer_list<std::string_view> names)
 {
+    const auto named = [&](std::string_view name)
+    { return std::find(names.begin(), names.end(), name) != names.end(); };
+    const bool develops_in_tiles = plan_.runs("tiles") && plan_.tone_in_tiles;
+    if (develops_in_tiles && named("tone") && !named("tiles")) return;
     gl::FramePlan alone = plan_;
     for (gl::PlannedPass& pass : alone.passes)
-        pass.runs = pass.runs && (pass.name == name || pass.name == "lights");
+        pass.runs = pass.runs && (named(pass.name) || pass.name == "lights" ||
+                                  (develops_in_tiles && named("tiles") && pass.name == "tone"));
     renderer_->draw(alone, view_, list_, time_s_);
     glFinish();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 
 #include "bench/bare_points.h"
 #include "core/backend.h"
+#include "core/splatter.h"
 #include "core/view.h"
 #include "gl/context.h"
 #include "gl/flake_buffers.h"
@@ -31,8 +33,9 @@ class DrawnScene
     void prepare();
     /// Every pass of the frame plan, until the picture is there.
     void draw();
-    /// One pass of the frame plan alone, over what the last draw() left, until it is there.
-    void draw_pass(std::string_view name);
+    /// Some passes of the frame plan alone, over what the last draw() left, until it is there. Where tiles
+    /// develop the picture too, tone alone is nothing.
+    void draw_passes(std::initializer_list<std::string_view> names);
     /// The picture in 8 bit, on the host.
     image::Image8 display() const { return renderer_->read_display(); }
 
@@ -55,6 +58,7 @@ class DrawnScene
     World world_;
     std::unique_ptr<gl::FlakeBuffers> buffers_;
     std::unique_ptr<Backend> backend_;
+    std::unique_ptr<Splatter> splatter_;
     std::unique_ptr<gl::Renderer> renderer_;
     View view_;
     DrawList list_;

@@ -23,7 +23,8 @@ namespace
 
 constexpr int kWarmUpFrames = 5;
 constexpr int kFrames = 30;
-constexpr std::array kPasses{"scene", "sky", "fade", "flakes", "tone"};
+/// In the order of measuring: those that develop the whole picture before those that draw parts of it anew.
+constexpr std::array kPasses{"exposure", "bloom", "tone", "scene", "sky", "fade", "flakes", "tiles"};
 
 struct Row
 {
@@ -41,7 +42,7 @@ std::string row_name(const char* what, const Row& row)
 /// Milliseconds by frame.
 struct FrameTimes
 {
-    std::vector<double> whole, steps, prepare, draw, bare, read;
+    std::vector<double> whole, steps, prepare, draw, bare, read, post;
     std::array<std::vector<double>, kPasses.size()> passes;  ///< each alone
 };
 
@@ -58,9 +59,10 @@ FrameTimes measure_frames(DrawnScene& scene, BarePoints& bare)
         const double prepare = time_ms([&] { scene.prepare(); });
         const double draw = time_ms([&] { scene.draw(); });
         const double read = time_ms([&] { benchmark::DoNotOptimize(scene.display().rgb.data()); });
+        const double post = time_ms([&] { scene.draw_passes({"exposure", "bloom", "tone"}); });
         std::array<double, kPasses.size()> passes{};
         for (std::size_t i = 0; i < kPasses.size(); ++i)
-            passes[i] = time_ms([&] { scene.draw_pass(kPasses[i]); });
+            passes[i] = time_ms([&] { scene.draw_passes({kPasses[i]}); });
         bare.upload(scene.points());
         const double alone = time_ms([&] { bare.draw(); });
         if (frame < 0) continue;
@@ -70,6 +72,7 @@ FrameTimes measure_frames(DrawnScene& scene, BarePoints& bare)
         times.draw.push_back(draw);
         times.read.push_back(read);
         times.bare.push_back(alone);
+        times.post.push_back(post);
         for (std::size_t i = 0; i < kPasses.size(); ++i) times.passes[i].push_back(passes[i]);
     }
     return times;
@@ -89,6 +92,8 @@ void whole_frame(benchmark::State& state, const Row& row)
     state.counters["draw_ms"] = quantile(times.draw, 0.5);
     for (std::size_t i = 0; i < kPasses.size(); ++i)
         state.counters[std::string(kPasses[i]) + "_ms"] = quantile(times.passes[i], 0.5);
+    state.counters["post_ms"] = quantile(times.post, 0.5);
+    state.counters["post_share"] = quantile(times.post, 0.5) / whole;
     state.counters["read_ms"] = quantile(times.read, 0.5);
     state.counters["p95_ms"] = quantile(times.whole, 0.95);
     state.counters["drawn"] = static_cast<double>(scene.drawn());
@@ -114,7 +119,8 @@ void picture(benchmark::State& state, const Row& row)
 
 bool register_rows()
 {
-    constexpr std::array frames{Row{"town", 1280, 720, 100'000}, Row{"canyon", 1280, 720, 100'000}};
+    constexpr std::array frames{Row{"town", 1280, 720, 100'000}, Row{"canyon", 1280, 720, 100'000},
+                                Row{"night", 1280, 720, 200'000}};
     constexpr std::array pictures{Row{"town", 320, 180, 4'000}, Row{"canyon", 320, 180, 4'000},
                                   Row{"calm", 320, 180, 4'000}};
     const auto add = [](const char* what, const Row& row, auto body)

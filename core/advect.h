@@ -35,6 +35,12 @@ struct StepParams
     std::uint32_t number = 0;
 };
 
+/// What a kernel has done besides while a pack moves, in four quarters spread over that work: here, nothing.
+struct NothingMeanwhile
+{
+    SPINDRIFT_HD void quarter(int) const {}
+};
+
 /// Moves one pack of flakes by one step: wind, turbulence, settling, slip, and what stands in the way.
 /// R: float or a SIMD pack of float. Resolver: EncounterResolver, or one that calls it out of line. Wind:
 /// UniformWind, LogWind or GridWind. All variants give the same bits. Scheme: docs/physics.md "Turbulence",
@@ -53,10 +59,11 @@ struct FlakeAdvector
     Surroundings around;
     FlakeView flakes;
 
-    /// Slots [first, first + width).
-    template <class Tally>
-    SPINDRIFT_HD void operator()(std::size_t first, Tally& tally) const
+    /// Slots [first, first + width). `meanwhile` gets each quarter once, unless all of them are dead.
+    template <class Tally, class Meanwhile = NothingMeanwhile>
+    SPINDRIFT_HD void operator()(std::size_t first, Tally& tally, const Meanwhile& meanwhile = {}) const
     {
+        meanwhile.quarter(0);
         const UInt state = load<UInt>(flakes.state + first);
         Mask alive = (state & UInt(0xFFU)) == UInt(0U);
         if (none(alive)) return;
@@ -65,6 +72,7 @@ struct FlakeAdvector
         if constexpr (Turbulent)
         {
             Air<R> air = wind.air(p.x);
+            meanwhile.quarter(1);
             const Int n = substeps<R>(air.gradient, R(step.dt_s));
             const R h = R(step.dt_s) / to_real<R>(n);
             for (int k = 0;; ++k)
@@ -72,13 +80,20 @@ struct FlakeAdvector
                 const Mask moving = alive && Int(k) < n;
                 if (none(moving)) break;
                 if (k > 0) air = wind.air(p.x);
-                const Move move = turbulent_move(p, air, h, static_cast<std::uint32_t>(k));
+                const Gaussians<R> noise = gaussians<R>(
+                    step.seed, p.id, step.number, RandomStream::turbulence, static_cast<std::uint32_t>(k));
+                if (k == 0) meanwhile.quarter(2);
+                const Move move = turbulent_move(p, air, h, noise);
+                if (k == 0) meanwhile.quarter(3);
                 alive = arrive(p, move, moving, alive, static_cast<std::uint32_t>(k), tally);
             }
         }
         else
         {
+            meanwhile.quarter(1);
             const Move move = smooth_move(p, R(step.dt_s));
+            meanwhile.quarter(2);
+            meanwhile.quarter(3);
             arrive(p, move, alive, alive, 0, tally);
         }
         store_pack(first, p);
@@ -129,9 +144,9 @@ struct FlakeAdvector
 
     /// Relaxation of q over the whole sub-step, then the deterministic flow dx = (U + S q) dt, dq = div S dt
     /// by the midpoint rule.
-    SPINDRIFT_HD Move turbulent_move(const Pack& p, const Air<R>& air, const R& h, std::uint32_t k) const
+    SPINDRIFT_HD Move turbulent_move(const Pack& p, const Air<R>& air, const R& h,
+                                     const Gaussians<R>& noise) const
     {
-        const Gaussians<R> noise = gaussians<R>(step.seed, p.id, step.number, RandomStream::turbulence, k);
         const Vec3<R> q = relax(p.q, air.rate, h, Vec3<R>{noise.x, noise.y, noise.z});
         const R half = h * number<R>(0.5);
         Move m;

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-
-#include "core/platform.h"
 
 namespace spindrift
 {
@@ -19,12 +16,6 @@ enum class Fate : std::uint32_t
     landed = 2,    ///< came to rest on a surface
     vanished = 3,  ///< ended on a surface that swallows flakes
 };
-
-/// Of an element of FlakeView::state.
-SPINDRIFT_HD bool is_alive(std::uint32_t state)
-{
-    return (state & 0xFFU) == static_cast<std::uint32_t>(Fate::alive);
-}
 
 /// The moving flakes as a structure of arrays over memory that somebody else owns (GL, the device or the
 /// host). Every array holds `capacity` elements and is aligned to 64 bytes. Slots [0, used) hold flakes, in
@@ -44,17 +35,6 @@ struct FlakeView
     std::uint32_t* id;     ///< serial number of emission, modulo 2^32; size, speed and look derive from it
     std::uint32_t* state;  ///< bits 0-7 Fate, bits 8-15 emitter index
 };
-
-inline constexpr std::size_t kFlakeArrays = 11;
-inline constexpr std::size_t kFlakeFloatArrays = 9;  ///< they come first
-
-/// The eleven arrays as words, whatever they mean, to move and copy them; on the host by memcpy alone.
-inline std::array<std::uint32_t*, kFlakeArrays> flake_words(const FlakeView& f)
-{
-    const auto words = [](float* array) { return reinterpret_cast<std::uint32_t*>(array); };
-    return {words(f.x),      words(f.y),      words(f.z),      words(f.q1), words(f.q2), words(f.q3),
-            words(f.slip_x), words(f.slip_y), words(f.slip_z), f.id,        f.state};
-}
 
 /// Bytes of simulated state that one flake takes: eleven 4-byte arrays.
 inline constexpr std::size_t kStateBytesPerFlake = 44;

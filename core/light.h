@@ -31,7 +31,7 @@ struct Lamp
     Vec3<R> intensity{};                   ///< point, spot: W/sr; directional: irradiance in W/m2
     R range_m = infinity<R>();
     R cos_inner{1}, cos_outer{0};  ///< of the half angles of the spot's cones
-    R g{0};                        ///< Henyey-Greenstein asymmetry of flakes in this light
+    Phase<R> phase;                ///< of flakes in this light
 };
 
 /// Whether a flashing lamp is on at a moment: frac(t rate + phase) < duty.
@@ -52,35 +52,35 @@ struct LampLight
 template <class R>
 SPINDRIFT_HD LampLight<R> lamp_light(const Lamp<R>& lamp, const Vec3<R>& place)
 {
-    if (lamp.kind == LampKind::directional) return {lamp.intensity, lamp.direction * R(-1)};
+    if (lamp.kind == LampKind::directional) return {lamp.intensity, lamp.direction * number<R>(-1)};
     const Vec3<R> way = lamp.position_m - place;
     const R distance = sqrt(dot(way, way));
-    const Vec3<R> towards = way * (R(1) / max(distance, R(1e-6)));
+    const Vec3<R> towards = way * (number<R>(1) / max(distance, number<R>(1e-6)));
     const R reach = distance / lamp.range_m;
-    const R window = max(R(1) - (reach * reach) * (reach * reach), R(0));
-    R share(1);
+    const R window = max(number<R>(1) - (reach * reach) * (reach * reach), number<R>(0));
+    R share = number<R>(1);
     if (lamp.kind == LampKind::spot)
     {
-        const R width = max(lamp.cos_inner - lamp.cos_outer, R(kNarrowestCone));
-        share = clamp((-dot(lamp.direction, towards) - lamp.cos_outer) / width, R(0), R(1));
+        const R width = max(lamp.cos_inner - lamp.cos_outer, number<R>(kNarrowestCone));
+        share = clamp((-dot(lamp.direction, towards) - lamp.cos_outer) / width, number<R>(0), number<R>(1));
         share = share * share;
     }
-    const R away = max(distance, R(kNearestLight_m));
+    const R away = max(distance, number<R>(kNearestLight_m));
     return {lamp.intensity * (share * window / (away * away)), towards};
 }
 
 /// Radiance that a flake sends towards `to_eye` (unit) of one lamp's light: phase function times irradiance.
 template <class R>
-SPINDRIFT_HD Vec3<R> scattered(const LampLight<R>& light, const R& g, const Vec3<R>& to_eye)
+SPINDRIFT_HD Vec3<R> scattered(const LampLight<R>& light, const Phase<R>& phase, const Vec3<R>& to_eye)
 {
-    const R mu = clamp(-dot(light.towards, to_eye), R(-1), R(1));
-    return light.irradiance * henyey_greenstein(g, mu);
+    const R mu = clamp(-dot(light.towards, to_eye), number<R>(-1), number<R>(1));
+    return light.irradiance * scattered_share(phase, mu);
 }
 
 template <class R>
 SPINDRIFT_HD R luminance(const Vec3<R>& colour)
 {
-    return R(0.2126) * colour.x + R(0.7152) * colour.y + R(0.0722) * colour.z;
+    return number<R>(0.2126) * colour.x + number<R>(0.7152) * colour.y + number<R>(0.0722) * colour.z;
 }
 
 }  // namespace spindrift

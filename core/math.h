@@ -168,9 +168,12 @@ SPINDRIFT_HD IntOf<R> floor_to_int(R x)
     return detail::integer_to_int(floor(x));
 }
 
-/// Base 2; -inf at 0, NaN below.
+namespace detail
+{
+
+/// log2 of a number above 0, inf excepted.
 template <class R>
-SPINDRIFT_HD R log2(R x)
+SPINDRIFT_HD R log2_inside(R x)
 {
     R m, e;
     detail::split_exponent(x, m, e);
@@ -180,7 +183,16 @@ SPINDRIFT_HD R log2(R x)
     const R high = number<R>(wide ? 1.4426950408889634 : 1.4426950216293335);
     const R low = number<R>(wide ? 2.0355273740931033e-17 : 1.925963033500011e-08);
     const R fraction = fma(r, high, fma(tail, high, (r + tail) * low));
-    return detail::log_ends(x, e + fraction);
+    return e + fraction;
+}
+
+}  // namespace detail
+
+/// Base 2; -inf at 0, NaN below.
+template <class R>
+SPINDRIFT_HD R log2(R x)
+{
+    return detail::log_ends(x, detail::log2_inside(x));
 }
 
 /// Natural; -inf at 0, NaN below.
@@ -195,6 +207,21 @@ SPINDRIFT_HD R log(R x)
     const R high = number<R>(wide ? 0.6931471803691238 : 0.693359375);
     const R low = number<R>(wide ? 1.9082149292705877e-10 : -0.00021219444170128554);
     return detail::log_ends(x, fma(e, high, r + fma(e, low, detail::log1p_tail(r))));
+}
+
+/// 2^x for x in [-126, 126]: half the work of exp2.
+template <class R>
+SPINDRIFT_HD R exp2_inside(R x)
+{
+    const R n = round(x);
+    const R r = (x - n) * number<R>(0.69314718055994530942);
+    const UIntOf<R> power = as_uint(truncate_to_int(n)) + UIntOf<R>(127U);
+    return detail::exp_reduced(r) * from_bits(power << 23);
+}
+SPINDRIFT_HD double exp2_inside(double x)
+{
+    const double n = round(x);
+    return detail::scale_by_power(detail::exp_reduced((x - n) * 0.69314718055994530942), truncate_to_int(n));
 }
 
 /// 2^x; overflows to inf, underflows through the denormals to 0; NaN stays NaN.
@@ -272,6 +299,34 @@ SPINDRIFT_HD void sincos_turns(R u, R& sine, R& cosine)
     const auto cosine_negative = ((q + Int(1)) & Int(2)) == Int(2);
     sine = select(defined, select(sine_negative, -sine_size, sine_size), turn);
     cosine = select(defined, select(cosine_negative, -cosine_size, cosine_size), turn);
+}
+
+/// Angle in (-pi/2, pi/2) whose tangent is x; ±pi/2 at the infinities, NaN for NaN. |x| above 1 as pi/2 -
+/// atan(1/x), above tan(pi/8) as pi/4 + atan((x - 1)/(x + 1)), the rest by its series.
+template <class R>
+SPINDRIFT_HD R atan(R x)
+{
+    const R one = number<R>(1);
+    const R size = abs(x);
+    const auto steep = size > one;
+    const R inside = select(steep, one / size, size);
+    const auto outer = inside > number<R>(0.41421356237309504880);
+    const R r = select(outer, (inside - one) / (inside + one), inside);
+    const R r2 = r * r;
+    R tail;  // (atan(r) - r) / r
+    if constexpr (NumberTraits<R>::is_double)
+        tail = r2 * polynomial(r2, -1.0 / 3, 1.0 / 5, -1.0 / 7, 1.0 / 9, -1.0 / 11, 1.0 / 13, -1.0 / 15,
+                               1.0 / 17, -1.0 / 19, 1.0 / 21, -1.0 / 23, 1.0 / 25, -1.0 / 27, 1.0 / 29,
+                               -1.0 / 31, 1.0 / 33, -1.0 / 35, 1.0 / 37, -1.0 / 39, 1.0 / 41);
+    else
+        tail = r2 *
+               polynomial(r2, -1.0 / 3, 1.0 / 5, -1.0 / 7, 1.0 / 9, -1.0 / 11, 1.0 / 13, -1.0 / 15, 1.0 / 17);
+    const R small = fma(r, tail, r);
+    // pi/4 is not a number of R: what it lacks
+    const R low = number<R>(NumberTraits<R>::is_double ? 3.061616997868383e-17 : -2.1855694143368964e-08);
+    const R quarter = number<R>(0.78539816339744830962);
+    const R half = select(outer, quarter + (small + low), small);
+    return copysign(select(steep, (quarter + quarter) - (half - (low + low)), half), x);
 }
 
 }  // namespace spindrift

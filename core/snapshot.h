@@ -10,7 +10,7 @@
 #include "core/anchors.h"
 #include "core/backend.h"
 #include "core/error.h"
-#include "core/flake.h"
+#include "core/flake_words.h"
 #include "core/math.h"
 #include "core/number.h"
 

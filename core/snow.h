@@ -96,12 +96,24 @@ enum class Trait : std::uint32_t
     fall_speed = 4,
 };
 
+/// What all traits of a flake are hashed from.
+template <class UInt>
+SPINDRIFT_HD UInt flake_base(std::uint64_t seed, UInt id)
+{
+    return mix32(id ^ UInt(static_cast<std::uint32_t>(seed)));
+}
+
+template <class UInt>
+SPINDRIFT_HD UInt flake_trait(UInt base, Trait trait)
+{
+    return mix32(base + UInt(static_cast<std::uint32_t>(trait) * 0x9E3779B9U));
+}
+
 /// 32 random bits of one trait of a flake, for ever the same.
 template <class UInt>
 SPINDRIFT_HD UInt trait_hash(std::uint64_t seed, UInt id, Trait trait)
 {
-    const UInt flake = mix32(id ^ UInt(static_cast<std::uint32_t>(seed)));
-    return mix32(flake + UInt(static_cast<std::uint32_t>(trait) * 0x9E3779B9U));
+    return flake_trait(flake_base(seed, id), trait);
 }
 
 /// In (0, 1); float rounds the topmost value to 1.

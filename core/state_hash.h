@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/flake.h"
+#include "core/flake_words.h"
 #include "core/number.h"
 #include "core/philox.h"
 #include "core/platform.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/compaction.h"
+#include "core/flake_words.h"
 
 #include <algorithm>
 #include <bit>

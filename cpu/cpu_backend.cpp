@@ -3,22 +3,19 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
-#include <optional>
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/info.h>
-#include <tbb/task_arena.h>
 
 #include "core/anchors.h"
 #include "core/check_world.h"
 #include "core/error.h"
 #include "core/flake_extent.h"
+#include "core/flake_words.h"
 #include "core/snapshot.h"
 #include "core/state_hash.h"
 #include "core/step_state.h"
 #include "core/world_hash.h"
+#include "cpu/arena.h"
 #include "cpu/chunks.h"
 #include "cpu/compaction.h"
 #include "cpu/draw_list.h"
@@ -51,20 +48,6 @@ class StageTimer
     std::chrono::steady_clock::time_point start_;
 };
 
-int thread_count(int asked)
-{
-    if (asked < 0) throw Error(fmt::format("threads = {} is negative; use 0 (one per core) or more", asked));
-    return asked == 0 ? tbb::info::default_concurrency() : asked;
-}
-
-/// TBB starts no more threads than there are cores unless told so.
-std::optional<tbb::global_control> more_threads(int threads)
-{
-    if (threads <= tbb::info::default_concurrency()) return std::nullopt;
-    return std::make_optional<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                   static_cast<std::size_t>(threads));
-}
-
 class CpuBackend final : public Backend
 {
   public:
@@ -73,9 +56,7 @@ class CpuBackend final : public Backend
         : world_(world),
           simd_(choose_simd(options.simd)),
           kernels_(kernels(simd_)),
-          threads_(thread_count(options.threads)),
-          more_threads_(more_threads(threads_)),
-          arena_(threads_),
+          arena_(options.threads),
           flakes_(flakes),
           anchors_(world.anchors),
           emission_(world),
@@ -96,7 +77,7 @@ class CpuBackend final : public Backend
     std::string name() const override
     {
         return fmt::format(
-            "cpu ({}, {} thread{}{})", simd_name(simd_), threads_, threads_ == 1 ? "" : "s",
+            "cpu ({}, {} thread{}{})", simd_name(simd_), arena_.threads(), arena_.threads() == 1 ? "" : "s",
             reorder_every_ > 0 ? fmt::format(", re-ordered every {} steps", reorder_every_) : "");
     }
 
@@ -139,9 +120,7 @@ class CpuBackend final : public Backend
     HeldWorld world_;
     Simd simd_;
     const KernelTable& kernels_;
-    int threads_;
-    std::optional<tbb::global_control> more_threads_;
-    mutable tbb::task_arena arena_;
+    Arena arena_;
     FlakeView flakes_;
     Anchors anchors_;
     Emission emission_;

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "cpu/chunks.h"
+#include "cpu/huge_pages.h"
 #include "cpu/parallel.h"
 
 namespace spindrift::cpu
@@ -29,6 +30,8 @@ int key_bits(const SortSettings& settings, const SortStrategy& strategy)
 DrawListMaker::DrawListMaker(const DrawListView& view, std::size_t capacity)
     : view_(view), capacity_(capacity), starts_(chunk_count(capacity) + 1)
 {
+    for (std::uint64_t* array : {view.pairs, view.scratch})
+        ask_for_huge_pages(array, capacity * sizeof(std::uint64_t));
 }
 
 const SortStrategy& DrawListMaker::strategy(const SortSettings& settings)

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/gradient_reach.h"
+#include "cpu/huge_pages.h"
 
 namespace spindrift::cpu
 {
@@ -52,7 +53,7 @@ HeldWorld::HeldWorld(const World& world) : data_(without_cells(world))
     if (p == MAP_FAILED)
         throw Error(fmt::format("no memory for a wind grid of {} MB; use a coarser one", bytes >> 20));
     cells_ = std::unique_ptr<void, Unmap>(p, Unmap{bytes});
-    madvise(p, bytes, MADV_HUGEPAGE);  // a kernel that refuses costs speed only
+    ask_for_huge_pages(p, bytes);
     std::memcpy(p, world.wind.cells.data(), bytes);
     const Wind& wind = world.wind;
     if (wind.turbulent)

@@ -14,32 +14,47 @@ namespace
 
 constexpr std::size_t kWidth = NumberTraits<Real>::width;
 
+// The packs' own would hide them from scalars.
+using spindrift::gather;
+using spindrift::gather_bytes;
+
 /// So many flakes ahead of the ones that move, the wind cells round them are called into the second-level
-/// cache: straight into the first they stop up its few miss buffers, which took half as long again
-/// (docs/benchmarking.md, advection).
+/// cache: straight into the first they stop up its few miss buffers.
 constexpr std::size_t kPrefetchFlakes = 64;
 
+/// Calls the cells round the pack at `at`, in four quarters: all at once they wait for miss buffers longer
+/// than the processor can look past them, so that nothing is computed meanwhile
+/// (docs/decisions/008-cells-fetched-in-quarters.md).
 template <class WindField>
-SPINDRIFT_HD void prefetch(const WindField&, const FlakeView&, std::size_t, std::size_t)
+struct CellsAhead : NothingMeanwhile
 {
-}
+    SPINDRIFT_HD CellsAhead(const WindField&, const FlakeView&, std::size_t) {}
+};
 
-SPINDRIFT_HD void prefetch(const GridWind& grid, const FlakeView& flakes, std::size_t first, std::size_t last)
+template <>
+struct CellsAhead<GridWind>
 {
-    if (first + kWidth > last) return;
-    const GridPoint<Real> p = grid.locate(
-        Vec3<Real>{load<Real>(flakes.x + first), load<Real>(flakes.y + first), load<Real>(flakes.z + first)});
+    const GridWind& grid;
     std::int32_t index[kWidth];
-    store(index, p.index);
-    for (std::size_t l = 0; l < kWidth; ++l)
-        for (int corner = 0; corner < 4; ++corner)
+
+    SPINDRIFT_HD CellsAhead(const GridWind& g, const FlakeView& f, std::size_t at) : grid(g)
+    {
+        store(index,
+              g.locate(Vec3<Real>{load<Real>(f.x + at), load<Real>(f.y + at), load<Real>(f.z + at)}).index);
+    }
+    /// A flake has four rows of two cells.
+    SPINDRIFT_HD void quarter(int number) const
+    {
+        constexpr int rows = static_cast<int>(kWidth);
+        for (int row = number * rows; row < (number + 1) * rows; ++row)
         {
-            const WindCell* row =
-                grid.cells + index[l] + (corner & 1 ? grid.step_y : 0) + (corner & 2 ? grid.step_z : 0);
-            __builtin_prefetch(row, 0, 2);
-            __builtin_prefetch(row + grid.step_x, 0, 2);
+            const WindCell* cells =
+                grid.cells + index[row / 4] + (row & 1 ? grid.step_y : 0) + (row & 2 ? grid.step_z : 0);
+            __builtin_prefetch(cells, 0, 2);
+            __builtin_prefetch(cells + grid.step_x, 0, 2);
         }
-}
+    }
+};
 
 /// The rare flakes that meet something, out of the way of the others: inlined, their code pushed the pack
 /// loop out of the instruction cache. Its type is local to this translation unit, so nothing of it is shared.
@@ -67,8 +82,8 @@ SPINDRIFT_HD void advect_in(const WindField& wind, const AdvectJob& job, std::si
     std::size_t i = first;
     for (; i + kWidth <= last; i += kWidth)
     {
-        prefetch(wind, job.flakes, i + kPrefetchFlakes, last);
-        advector(i, tally);
+        const std::size_t ahead = i + kPrefetchFlakes + kWidth <= last ? i + kPrefetchFlakes : i;
+        advector(i, tally, CellsAhead<WindField>(wind, job.flakes, ahead));
     }
     // fewer than a pack: the scalar kernels give the same bits, and need no second copy of the advector here
     if constexpr (kWidth > 1)
@@ -133,3 +148,6 @@ std::size_t list_visible(const Frustum& frustum, const FlakeView& flakes, std::s
 }  // namespace
 
 }  // namespace spindrift::cpu
+
+#include "cpu/blend_tile.inl"
+#include "cpu/place_sprites.inl"

@@ -11,6 +11,6 @@ using Real = Avx2Real;
 namespace spindrift::cpu
 {
 
-const KernelTable kAvx2Kernels = {advect, list_visible};
+const KernelTable kAvx2Kernels = {advect, list_visible, place_sprites, blend_tile};
 
 }  // namespace spindrift::cpu

@@ -11,6 +11,6 @@ using Real = Avx512Real;
 namespace spindrift::cpu
 {
 
-const KernelTable kAvx512Kernels = {advect, list_visible};
+const KernelTable kAvx512Kernels = {advect, list_visible, place_sprites, blend_tile};
 
 }  // namespace spindrift::cpu

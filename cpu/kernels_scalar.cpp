@@ -11,6 +11,6 @@ using Real = float;
 namespace spindrift::cpu
 {
 
-const KernelTable kScalarKernels = {advect, list_visible};
+const KernelTable kScalarKernels = {advect, list_visible, place_sprites, blend_tile};
 
 }  // namespace spindrift::cpu

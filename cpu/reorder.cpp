@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "core/emission_order.h"
+#include "core/flake_words.h"
 #include "core/visible.h"
 #include "cpu/chunks.h"
 #include "cpu/parallel.h"

@@ -14,7 +14,7 @@ std::vector<Simd> available_simd()
 {
     std::vector<Simd> all{Simd::scalar};
     __builtin_cpu_init();
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("f16c"))
     {
         all.push_back(Simd::scalar_fma);
         all.push_back(Simd::avx2);

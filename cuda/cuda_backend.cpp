@@ -8,6 +8,7 @@
 
 #include "core/check_world.h"
 #include "core/error.h"
+#include "core/flake_words.h"
 #include "core/snapshot.h"
 #include "core/state_hash.h"
 #include "core/world_hash.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/flake_words.h"
 #include "cuda/rearrange.h"
 
 #include <array>

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/light.h"
+#include "scene/lamp_kind.h"
 #include "scene/make_world.h"
 
 namespace spindrift::gl
@@ -59,32 +60,55 @@ float cosine_deg(double degrees)
     return static_cast<float>(std::cos(degrees * std::numbers::pi / 180.0));
 }
 
-PackedLight pack(const scene::Light& light, const Vec3f& position_m)
+Phase<float> phase_of(const scene::Light& light)
+{
+    return {light.phase, static_cast<float>(light.g), static_cast<float>(light.g_back),
+            static_cast<float>(light.back_share)};
+}
+
+Lamp<float> lamp_of(const scene::Light& light, const Vec3f& position_m)
+{
+    return {scene::lamp_kind(light.kind),      position_m,
+            to_float(light.direction),         {light.intensity.r, light.intensity.g, light.intensity.b},
+            static_cast<float>(light.range_m), cosine_deg(light.inner_cone_deg),
+            cosine_deg(light.outer_cone_deg),  phase_of(light)};
+}
+
+}  // namespace
+
+PackedLight pack(const Lamp<float>& lamp)
 {
     PackedLight packed;
-    const Vec3f way = to_float(light.direction);
+    const Vec3f& way = lamp.direction;
     packed.direction = {way.x, way.y, way.z, 0};
-    packed.intensity = {light.intensity.r, light.intensity.g, light.intensity.b, static_cast<float>(light.g)};
+    packed.intensity = {lamp.intensity.x, lamp.intensity.y, lamp.intensity.z, lamp.phase.g};
     packed.limits = {1, 0, 0, 0};
-    if (light.kind == scene::LightKind::directional)
+    if (lamp.phase.kind == PhaseKind::double_lobe)
+    {
+        packed.limits[2] = lamp.phase.back_share;
+        packed.limits[3] = lamp.phase.g_back;
+    }
+    if (lamp.phase.kind == PhaseKind::schlick)
+    {
+        packed.limits[2] = -1;
+        packed.intensity[3] = schlick_k(lamp.phase.g);
+    }
+    if (lamp.kind == LampKind::directional)
     {
         packed.place = {-way.x, -way.y, -way.z, 0};
         return packed;
     }
-    packed.place = {position_m.x, position_m.y, position_m.z, 1};
-    packed.limits[1] = std::isfinite(light.range_m) ? static_cast<float>(1.0 / light.range_m) : 0.0F;
-    if (light.kind == scene::LightKind::spot)
+    packed.place = {lamp.position_m.x, lamp.position_m.y, lamp.position_m.z, 1};
+    packed.limits[1] = 1.0F / lamp.range_m;
+    if (lamp.kind == LampKind::spot)
     {
-        const float outer = cosine_deg(light.outer_cone_deg);
         const float scale =
-            1.0F / std::max(static_cast<float>(kNarrowestCone), cosine_deg(light.inner_cone_deg) - outer);
+            1.0F / std::max(static_cast<float>(kNarrowestCone), lamp.cos_inner - lamp.cos_outer);
         packed.direction[3] = scale;
-        packed.limits[0] = -outer * scale;
+        packed.limits[0] = -lamp.cos_outer * scale;
     }
     return packed;
 }
-
-}  // namespace
 
 ActiveLights active_lights(const scene::Scene& scene, std::span<const scene::Light> model_lights,
                            const View& view, double time_s)
@@ -107,10 +131,12 @@ ActiveLights active_lights(const scene::Scene& scene, std::span<const scene::Lig
         if (bounded && !in_sight(view, position, static_cast<float>(light.range_m)))
             ++active.out_of_range;
         else
-            active.lights.push_back(pack(light, position));
+            active.lamps.push_back(lamp_of(light, position));
     };
     for (const scene::Light& light : scene.lights) consider(light);
     for (const scene::Light& light : model_lights) consider(light);
+    if (scene.render.scattering == scene::Scattering::legacy)
+        for (Lamp<float>& lamp : active.lamps) lamp.phase = turned_round(lamp.phase);
     return active;
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/light.h"
 #include "core/view.h"
 #include "scene/scene.h"
 
@@ -20,10 +21,12 @@ struct PackedLight
     glm::vec4 limits{};
 };
 
+PackedLight pack(const Lamp<float>& lamp);
+
 /// The lights that count in a frame, and why the others do not.
 struct ActiveLights
 {
-    std::vector<PackedLight> lights;
+    std::vector<Lamp<float>> lamps;
     int absent = 0;        ///< do not exist, are off or have no intensity
     int dark_now = 0;      ///< flash, and are in the dark part of their period
     int out_of_range = 0;  ///< their range does not touch what the camera sees

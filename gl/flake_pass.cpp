@@ -63,11 +63,12 @@ FlakePass::FlakePass(const scene::RenderSettings& settings, double weight, const
         defines.emplace_back("OPAQUE");
     else if (weight != settings.flake_scale * settings.flake_scale)
         defines.emplace_back("WEIGHTED");
+    if (settings.blending == Blending::additive) defines.emplace_back("ADDITIVE");
     if (settings.sprite == scene::Sprite::point) defines.emplace_back("POINT_SPRITE");
-    programs_[kPlain] = LitProgram(kFiles, defines);
+    programs_[kPlain] = ByAir(kFiles, defines);
     if (settings.blending == Blending::opaque) return;
     defines.emplace_back("LARGE");
-    programs_[kCrystal] = LitProgram(kFiles, defines);
+    programs_[kCrystal] = ByAir(kFiles, defines);
 }
 
 void FlakePass::bind(const FlakeDraw& what) const
@@ -123,7 +124,7 @@ GLsizei FlakePass::count_beyond(const FlakeDraw& what, double border_m) const
 
 void FlakePass::use(const FlakeDraw& what, Detail detail) const
 {
-    const GLuint program = programs_[detail].for_lights(what.lights);
+    const GLuint program = programs_[detail].in(what.air).for_lights(what.lights);
     glUseProgram(program);
     if (settings_.blending != Blending::opaque)
         glProgramUniform1i(program, kHasScene, what.scene_depth != 0 ? 1 : 0);

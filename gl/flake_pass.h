@@ -22,6 +22,7 @@ struct FlakeDraw
     const DrawList& list;
     GLuint scene_depth;  ///< copy of the scene's depth; 0: nothing to fade into
     std::size_t lights;  ///< how many are active
+    AirKind air;
 };
 
 /// Draws flakes as points that the vertex shader pulls from the simulation's own buffers.
@@ -52,8 +53,8 @@ class FlakePass
 
     scene::RenderSettings settings_;
     const FlakeBuffers& buffers_;
-    std::array<LitProgram, 2> programs_;  // by Detail
-    std::optional<FlakeSplit> split_;     // where the host cannot read the buffers
+    std::array<ByAir, 2> programs_;    // by Detail
+    std::optional<FlakeSplit> split_;  // where the host cannot read the buffers
     VertexArray nothing_;
 };
 

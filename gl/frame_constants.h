@@ -16,7 +16,7 @@ struct FrameConstants
     glm::vec4 up_tan{};
     glm::vec4 forward_near{};
     glm::vec4 ambient_far{};
-    glm::vec4 zenith_exposure{};
+    glm::vec4 zenith{};
     glm::vec4 horizon_focal{};
     glm::vec4 look{};
     glm::vec4 sprite{};
@@ -30,13 +30,18 @@ enum Binding : unsigned
 {
     kFrameBlock = 0,
     kFewLights = 1,
+    kExposure = 2,
+    kBloomCommand = 3,
+    kAirBlock = 4,
     kXArray = 0,
     kYArray = 1,
     kZArray = 2,
     kIdArray = 3,
     kDrawList = 4,
     kLights = 5,
-    kDrawCommands = 6,
+    kBloomCommandWritten = 6,
+    kExposureWritten = 7,
+    kDrawCommands = 6,  // each of these is bound where it is used
     kSceneDepth = 0,
     kMasks = 1,
     kDepthTiles = 2,

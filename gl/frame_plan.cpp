@@ -4,9 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
+#include "core/airlight.h"
+#include "core/visibility.h"
 #include "gl/active_lights.h"
+#include "gl/bloom_shape.h"
+#include "gl/pass_cost.h"
+#include "scene/air.h"
 
 namespace spindrift::gl
 {
@@ -15,6 +22,10 @@ namespace
 {
 
 using scene::Blending;
+
+/// Air that lets more than this share through to the far plane is left out.
+constexpr double kClearEnough = 0.995;
+using scene::FlakePath;
 
 /// Everything that the decisions look at, gathered once.
 struct Facts
@@ -25,16 +36,27 @@ struct Facts
     bool has_flakes;
     bool has_solids;
     bool blended;  // alpha is used
+    GlKind gl;
+    double far_clear;  // least transmittance of the air up to the far plane
 
     Facts(const scene::Scene& s, const View& view, const FrameStats& stats, double time_s,
-          std::span<const scene::Light> model_lights)
+          std::span<const scene::Light> model_lights, GlKind kind)
         : scene(s),
           last(stats),
           lights(active_lights(s, model_lights, view, time_s)),
           has_flakes(stats.counts.alive > 0),
           has_solids(s.ground.kind != scene::GroundKind::none || !s.boxes.empty() || !s.models.empty()),
-          blended(s.render.blending != Blending::opaque)
+          blended(s.render.blending != Blending::opaque),
+          gl(kind),
+          far_clear(scene::far_transmittance(s, view))
     {
+    }
+
+    bool in_tiles() const
+    {
+        const FlakePath path = scene.render.flake_path;
+        return blended && gl != GlKind::out_of_reach &&
+               (path == FlakePath::tiles || (path == FlakePath::automatic && gl == GlKind::software));
     }
 };
 
@@ -94,12 +116,12 @@ std::string dark_reason(const ActiveLights& lights)
 PlannedPass plan_lights(const Facts& facts)
 {
     const std::string dark = dark_reason(facts.lights);
-    if (facts.lights.lights.empty())
+    if (facts.lights.lamps.empty())
         return left_out("lights", dark.empty() ? "the scene has no lights: ambient only"
                                                : fmt::format("no light counts now ({}): ambient only", dark));
     return runs(
         "lights",
-        fmt::format("{} light{} on{}", facts.lights.lights.size(), facts.lights.lights.size() == 1 ? "" : "s",
+        fmt::format("{} light{} on{}", facts.lights.lamps.size(), facts.lights.lamps.size() == 1 ? "" : "s",
                     dark.empty() ? "" : fmt::format("; left out: {}", dark)),
         "light table, display time", "lights");
 }
@@ -115,8 +137,46 @@ PlannedPass plan_fade(const Facts& facts)
     if (!facts.has_flakes) return left_out("fade", "no flakes are alive");
     if (!facts.blended) return left_out("fade", "opaque points do not fade where they cut into the scene");
     if (!facts.has_solids) return left_out("fade", "nothing solid to cut into");
+    if (facts.in_tiles()) return left_out("fade", "the tiles look at the depth of each pixel");
     return runs("fade", "flakes fade where they cut into the scene; hidden ones are dropped early", "depth",
                 "copy of depth, depth tiles");
+}
+
+PlannedPass plan_fog(const Facts& facts)
+{
+    const scene::AirSettings& air = facts.scene.air;
+    if (facts.far_clear == 1) return left_out("fog", "the air is clear but for the flakes that are drawn");
+    if (facts.far_clear > kClearEnough)
+        return left_out("fog", fmt::format("the air lets {:.2f} % through up to the far plane (above {:g} %)",
+                                           100 * facts.far_clear, 100 * kClearEnough));
+    const double extinction = scene::uniform_extinction(facts.scene);
+    std::string reason = facts.scene.air.law == scene::FogLaw::legacy
+                             ? "the report's line, visibility - distance / 600 m"
+                             : "takes over where flakes end or are too small to draw";
+    if (extinction > 0)
+        reason = fmt::format("extinction {:.3g} 1/m, visibility {:.3g} m ({}); {}", extinction,
+                             visibility_of_extinction(extinction, air.contrast),
+                             air.contrast == VisibilityContrast::five_percent ? "5 %" : "2 %", reason);
+    if (std::isfinite(air.drift_visibility_m))
+        reason += fmt::format("; drift of {:g} m visibility, {:g} m high", air.drift_visibility_m,
+                              air.drift_height_m);
+    return runs("fog", reason, "depth, lights", "picture, copy of depth");
+}
+
+PlannedPass plan_airlight(const Facts& facts)
+{
+    if (facts.far_clear > kClearEnough) return left_out("airlight", "no fog that could glow");
+    if (!facts.scene.air.airlight || facts.scene.air.law == scene::FogLaw::legacy)
+        return left_out("airlight", "the scene asks for none");
+    const auto lamps =
+        std::count_if(facts.lights.lamps.begin(), facts.lights.lamps.end(),
+                      [](const Lamp<float>& lamp) { return lamp.kind != LampKind::directional; });
+    if (lamps == 0)
+        return left_out("airlight", "no point or spot lamp shines (the sun is in the fog's own light)");
+    return runs("airlight",
+                fmt::format("{} lamp{} glow{} in the fog, {} points each", lamps, lamps == 1 ? "" : "s",
+                            lamps == 1 ? "s" : "", kAirlightPoints),
+                "copy of depth, lights", "picture");
 }
 
 std::string_view blending_name(Blending blending)
@@ -133,18 +193,151 @@ std::string_view blending_name(Blending blending)
     return "";
 }
 
+std::string flakes_reason(const Facts& facts)
+{
+    const std::size_t lamps = facts.lights.lamps.size();
+    return fmt::format("{} blending, {} a flake", blending_name(facts.scene.render.blending),
+                       lamps == 0 ? std::string("no scattering loop")
+                                  : fmt::format("{} phase function{}", lamps, lamps == 1 ? "" : "s"));
+}
+
 PlannedPass plan_flakes(const Facts& facts)
 {
     if (!facts.has_flakes) return left_out("flakes", "no flakes are alive");
-    return runs("flakes",
-                fmt::format("{} blending, {} a flake", blending_name(facts.scene.render.blending),
-                            facts.lights.lights.empty()
-                                ? std::string("no scattering loop")
-                                : fmt::format("{} phase function{}", facts.lights.lights.size(),
-                                              facts.lights.lights.size() == 1 ? "" : "s")),
+    if (facts.in_tiles()) return left_out("flakes", "drawn in tiles instead of as points");
+    return runs("flakes", flakes_reason(facts),
                 facts.blended ? "flakes, draw list, lights, depth, copy of depth, depth tiles"
                               : "flakes, draw list, lights, depth",
                 facts.blended ? "picture" : "picture, depth");
+}
+
+PlannedPass plan_tiles(const Facts& facts)
+{
+    if (!facts.has_flakes) return left_out("tiles", "no flakes are alive");
+    if (!facts.blended) return left_out("tiles", "opaque points go by the depth buffer");
+    const bool asked = facts.scene.render.flake_path != FlakePath::automatic;
+    if (facts.gl == GlKind::out_of_reach)
+        return left_out("tiles", "the processor cannot read the flakes where CUDA writes them");
+    if (!facts.in_tiles())
+        return left_out("tiles", asked ? "the scene asks for raster"
+                                       : "only software GL needs them: a GPU sets up points by itself");
+    return runs(
+        "tiles",
+        fmt::format("{}; {}", flakes_reason(facts),
+                    asked ? "the scene asks for tiles" : "software GL sets up points on one thread only"),
+        "flakes, draw list, lights, depth, picture", "picture");
+}
+
+PlannedPass plan_exposure(const Facts& facts)
+{
+    const scene::RenderSettings& render = facts.scene.render;
+    if (!render.auto_exposure)
+        return left_out("exposure", fmt::format("the scene sets it: {:g}", render.exposure));
+    if (facts.last.exposed)
+        return left_out("exposure", "that of this moment is known: both eyes of a pair have the same");
+    return runs("exposure",
+                fmt::format("log-average as {:g}, adapting in {:g} s", render.grey, render.adaptation_s),
+                "picture, exposure", "exposure");
+}
+
+/// No channel of the picture is above this, exposed; infinite where that is not known. Without lamps a
+/// surface or flake gives back at most the ambient light, and over-blending takes no more than the larger of
+/// two.
+double brightest_possible(const Facts& facts)
+{
+    const scene::Scene& scene = facts.scene;
+    const bool sums_up = scene.render.blending == Blending::additive && facts.has_flakes;
+    if (!facts.lights.lamps.empty() || sums_up || scene.render.auto_exposure)
+        return std::numeric_limits<double>::infinity();
+    double brightest = 0;
+    for (const scene::Colour& c : {scene.sky.zenith, scene.sky.horizon, scene.sky.ambient})
+        brightest = std::max({brightest, double{c.r}, double{c.g}, double{c.b}});
+    const double surface = std::max({scene.sky.ambient.r, scene.sky.ambient.g, scene.sky.ambient.b});
+    const double emission = facts.has_solids ? facts.last.brightest_emission : 0;
+    constexpr double kRounding = 1.001;  // of half floats, which blending may add up
+    return kRounding * scene.render.exposure * std::max(brightest, surface + emission);
+}
+
+std::string bloom_reason(const scene::BloomSettings& bloom, const BloomShape& shape)
+{
+    std::string how;
+    switch (bloom.method)
+    {
+        case scene::BloomMethod::gaussian:
+            how = fmt::format("exact Gaussian of {} taps an axis", 2 * shape.gauss_radius + 1);
+            break;
+        case scene::BloomMethod::reduced:
+            how = fmt::format("Gaussian of {} taps an axis at 1/{} of the resolution",
+                              2 * shape.gauss_radius + 1, shape.scale);
+            break;
+        case scene::BloomMethod::pyramid:
+            how = fmt::format("13 taps down, tent up, {} levels", shape.levels);
+            break;
+        case scene::BloomMethod::dual:
+            how = fmt::format("dual filter, {} levels", shape.levels);
+            break;
+        case scene::BloomMethod::legacy:
+            how = fmt::format("box of {} taps an axis", 2 * shape.gauss_radius + 1);
+            break;
+    }
+    return fmt::format(
+        "spreads {:g} of what is above {:g}: {}, sigma {:.3g} px; nothing more than the first step "
+        "where that finds nothing",
+        bloom.weight, bloom.threshold, how, shape.sigma_px);
+}
+
+PlannedPass plan_bloom(const Facts& facts, const View& view)
+{
+    const scene::BloomSettings& bloom = facts.scene.bloom;
+    if (bloom.weight == 0) return left_out("bloom", "its weight is 0");
+    const double onset = bloom.threshold * (1 - bloom.knee);
+    const double brightest = brightest_possible(facts);
+    if (brightest <= onset)
+        return left_out("bloom",
+                        fmt::format("without lamps nothing can be above {:.3g}, and it sets in at {:.3g}",
+                                    brightest, onset));
+    return runs("bloom", bloom_reason(bloom, bloom_shape(bloom, view.height_px)), "picture, exposure",
+                "spread light");
+}
+
+std::string_view curve_name(ToneCurve curve)
+{
+    switch (curve)
+    {
+        case ToneCurve::linear:
+            return "clamp";
+        case ToneCurve::reinhard:
+            return "extended Reinhard";
+        case ToneCurve::aces:
+            return "ACES";
+        case ToneCurve::agx:
+            return "AgX";
+        case ToneCurve::neutral:
+            return "PBR Neutral";
+        case ToneCurve::calibrated:
+            return "calibrated";
+        case ToneCurve::legacy:
+            return "legacy gain";
+    }
+    return "";
+}
+
+/// Tiles can be developed as soon as they are blended where each channel of each pixel goes by itself.
+bool tone_in_tiles(const Facts& facts, bool blooms)
+{
+    const ToneCurve curve = facts.scene.display.tone;
+    const bool by_channel =
+        curve == ToneCurve::linear || curve == ToneCurve::calibrated || curve == ToneCurve::legacy;
+    return facts.has_flakes && facts.in_tiles() && by_channel && !blooms && !facts.scene.render.auto_exposure;
+}
+
+PlannedPass plan_tone(const Facts& facts, bool blooms, bool in_tiles)
+{
+    return runs("tone",
+                fmt::format("{}, sRGB{}{}", curve_name(facts.scene.display.tone),
+                            facts.scene.display.dither ? ", dither" : "",
+                            in_tiles ? "; in the tiles: nothing comes between" : ""),
+                blooms ? "picture, exposure, spread light" : "picture, exposure", "display");
 }
 
 }  // namespace
@@ -156,34 +349,57 @@ bool FramePlan::runs(std::string_view name) const
 }
 
 FramePlan plan_frame(const scene::Scene& scene, const View& view, const FrameStats& last, double time_s,
-                     std::span<const scene::Light> model_lights)
+                     std::span<const scene::Light> model_lights, GlKind gl)
 {
-    const Facts facts(scene, view, last, time_s, model_lights);
+    const Facts facts(scene, view, last, time_s, model_lights, gl);
     FramePlan plan;
     plan.passes.push_back(plan_cull(facts));
     plan.passes.push_back(plan_sort(facts));
     plan.passes.push_back(plan_lights(facts));
     plan.passes.push_back(plan_scene(facts));
     plan.passes.push_back(runs("sky", "fills what the scene leaves free", "depth", "picture"));
+    plan.passes.push_back(plan_fog(facts));
+    plan.passes.push_back(plan_airlight(facts));
     plan.passes.push_back(plan_fade(facts));
     plan.passes.push_back(plan_flakes(facts));
-    plan.passes.push_back(
-        runs("tone", fmt::format("exposure {:g}, clamp, sRGB", scene.render.exposure), "picture", "display"));
+    plan.passes.push_back(plan_tiles(facts));
+    plan.passes.push_back(plan_exposure(facts));
+    plan.passes.push_back(plan_bloom(facts, view));
+    const bool blooms = plan.passes.back().runs;
+    plan.tone_in_tiles = tone_in_tiles(facts, blooms);
+    plan.passes.push_back(plan_tone(facts, blooms, plan.tone_in_tiles));
+    for (PlannedPass& pass : plan.passes)
+        if (pass.runs) pass.cost = pass_cost(pass.name, scene, view, last);
     return plan;
 }
+
+namespace
+{
+
+std::string cost_text(const PassCost& cost)
+{
+    return fmt::format("about {:.3g} MB, {:.3g} million texels or flakes", cost.megabytes,
+                       cost.million_elements);
+}
+
+}  // namespace
 
 std::string to_text(const FramePlan& plan)
 {
     std::size_t widest = 0;
     for (const PlannedPass& pass : plan.passes) widest = std::max(widest, pass.name.size());
     std::string text;
+    PassCost total;
     for (const PlannedPass& pass : plan.passes)
     {
         text += fmt::format("{} {:<{}}  {}\n", pass.runs ? "->" : " -", pass.name, widest, pass.reason);
         if (!pass.runs) continue;
         text += fmt::format("   {:<{}}  reads {}; writes {}\n", "", widest, pass.reads, pass.writes);
+        total.megabytes += pass.cost.megabytes;
+        total.million_elements += pass.cost.million_elements;
+        if (pass.cost.megabytes > 0) text += fmt::format("   {:<{}}  {}\n", "", widest, cost_text(pass.cost));
     }
-    return text;
+    return text + fmt::format("In all {}; what flakes cover comes on top.\n", cost_text(total));
 }
 
 }  // namespace spindrift::gl

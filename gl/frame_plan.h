@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,6 +22,16 @@ struct FrameStats
     bool flakes_moved = true;
     bool camera_moved = true;
     std::uint64_t drawn = 0;
+    bool exposed = false;  ///< the exposure of this display time is known: the other eye of a pair was drawn
+    /// Largest channel of what any surface emits; infinite where nobody looked.
+    double brightest_emission = std::numeric_limits<double>::infinity();
+};
+
+/// An estimate that holds on any machine: what a pass touches. Overdraw is not foreseen.
+struct PassCost
+{
+    double megabytes = 0;         ///< read and written
+    double million_elements = 0;  ///< texels, flakes or vertices looked at
 };
 
 struct PlannedPass
@@ -29,19 +40,31 @@ struct PlannedPass
     bool runs = true;
     std::string reason;         ///< why it runs, or why it is left out
     std::string reads, writes;  ///< resources, for people
+    PassCost cost{};            ///< nothing for a pass that is left out
 };
 
 /// The passes of one frame in order, those left out included with their reason.
 struct FramePlan
 {
     std::vector<PlannedPass> passes;
+    bool tone_in_tiles = false;  ///< the tiles are developed where they are blended, not by a pass of its own
     bool runs(std::string_view name) const;
 };
 
+/// Who runs GL, where that is known.
+enum class GlKind
+{
+    unknown,
+    hardware,
+    software,
+    out_of_reach,  ///< whoever it is: the flakes lie where the processor cannot read them
+};
+
 /// Pure: no GL, no clock. `time_s` is the display time of the frame (flashing lights); `model_lights` are
-/// those that came with models (scene::Geometry), which shine like the scene's own.
+/// those that came with models (scene::Geometry), which shine like the scene's own; `gl` decides how flakes
+/// are drawn where the scene leaves it open (unknown: as hardware).
 FramePlan plan_frame(const scene::Scene& scene, const View& view, const FrameStats& last, double time_s,
-                     std::span<const scene::Light> model_lights = {});
+                     std::span<const scene::Light> model_lights = {}, GlKind gl = GlKind::unknown);
 
 /// As `spindrift explain` prints it.
 std::string to_text(const FramePlan& plan);

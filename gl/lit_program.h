@@ -29,4 +29,24 @@ class LitProgram
     mutable std::array<Program, kMostUnrolled + 2> variants_;  // the last one takes any number
 };
 
+/// Whether snow between things dims light.
+enum class AirKind : std::size_t
+{
+    clear,
+    thick,
+    glowing,  ///< thick, and lamps light it
+};
+
+/// A lit program for each kind of air; the shaders know AIR and GLOW.
+class ByAir
+{
+  public:
+    ByAir() = default;
+    ByAir(std::array<std::string_view, 2> files, std::vector<std::string_view> defines = {});
+    const LitProgram& in(AirKind air) const { return programs_[static_cast<std::size_t>(air)]; }
+
+  private:
+    std::array<LitProgram, 3> programs_;
+};
+
 }  // namespace spindrift::gl

@@ -61,6 +61,16 @@ Query make_query(GLenum target)
     return Query(name);
 }
 
+Sampler make_linear_sampler(GLint wrap)
+{
+    GLuint name = 0;
+    glCreateSamplers(1, &name);
+    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+        glSamplerParameteri(name, filter, GL_LINEAR);
+    for (const GLenum side : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) glSamplerParameteri(name, side, wrap);
+    return Sampler(name);
+}
+
 void require_complete(const Framebuffer& framebuffer, const std::string& what)
 {
     const GLenum status = glCheckNamedFramebufferStatus(framebuffer.name(), GL_FRAMEBUFFER);

@@ -62,12 +62,17 @@ struct QueryKind
 {
     static void free(GLuint name) { glDeleteQueries(1, &name); }
 };
+struct SamplerKind
+{
+    static void free(GLuint name) { glDeleteSamplers(1, &name); }
+};
 
 using Buffer = Object<BufferKind>;
 using Texture = Object<TextureKind>;
 using Framebuffer = Object<FramebufferKind>;
 using VertexArray = Object<VertexArrayKind>;
 using Query = Object<QueryKind>;
+using Sampler = Object<SamplerKind>;
 
 // All storage but make_lent_buffer()'s is immutable (direct state access).
 
@@ -78,6 +83,8 @@ Texture make_texture_2d(GLenum format, int width, int height);
 Framebuffer make_framebuffer();
 VertexArray make_vertex_array();
 Query make_query(GLenum target);
+/// Linear, with GL_CLAMP_TO_EDGE or GL_CLAMP_TO_BORDER (black).
+Sampler make_linear_sampler(GLint wrap);
 
 /// Throws Error unless the framebuffer can be drawn to; `what` names it.
 void require_complete(const Framebuffer& framebuffer, const std::string& what);

@@ -21,13 +21,6 @@ int checked_size(int width_px, int height_px)
     return width_px;
 }
 
-Texture unmade_texture()
-{
-    GLuint name = 0;
-    glGenTextures(1, &name);  // a view needs a name that never had a target
-    return Texture(name);
-}
-
 int tiles(int px)
 {
     return (px + Picture::kTilePx - 1) / Picture::kTilePx;
@@ -43,21 +36,16 @@ Picture::Picture(int width_px, int height_px)
       depth_copy(make_texture_2d(GL_DEPTH_COMPONENT32F, width, height)),
       depth_tiles(make_texture_2d(GL_R32F, tiles(width), tiles(height))),
       display(make_texture_2d(GL_RGBA8, width, height)),
-      encoded_view(unmade_texture()),
       linear_target(make_framebuffer()),
       tiles_target(make_framebuffer()),
-      encode_target(make_framebuffer()),
       display_target(make_framebuffer())
 {
     glNamedFramebufferTexture(linear_target.name(), GL_COLOR_ATTACHMENT0, linear.name(), 0);
     glNamedFramebufferTexture(linear_target.name(), GL_DEPTH_ATTACHMENT, depth.name(), 0);
     glNamedFramebufferTexture(tiles_target.name(), GL_COLOR_ATTACHMENT0, depth_tiles.name(), 0);
-    glTextureView(encoded_view.name(), GL_TEXTURE_2D, display.name(), GL_SRGB8_ALPHA8, 0, 1, 0, 1);
-    glNamedFramebufferTexture(encode_target.name(), GL_COLOR_ATTACHMENT0, encoded_view.name(), 0);
     glNamedFramebufferTexture(display_target.name(), GL_COLOR_ATTACHMENT0, display.name(), 0);
     require_complete(linear_target, "float picture");
     require_complete(tiles_target, "depth tiles");
-    require_complete(encode_target, "display picture as sRGB");
     require_complete(display_target, "display picture");
 }
 

@@ -17,8 +17,7 @@ struct Picture
 
     int width, height;
     Texture linear, depth, depth_copy, depth_tiles, display;
-    Texture encoded_view;  ///< `display` seen as sRGB: what is written linearly is stored encoded
-    Framebuffer linear_target, tiles_target, encode_target, display_target;
+    Framebuffer linear_target, tiles_target, display_target;
 
     void copy_depth() const;
 };

@@ -6,9 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
+#include "core/error.h"
 #include "gl/active_lights.h"
+#include "gl/air_pass.h"
+#include "gl/bloom_pass.h"
 #include "gl/crystal_texture.h"
+#include "gl/exposure_pass.h"
 #include "gl/flake_look.h"
 #include "gl/flake_pass.h"
 #include "gl/frame_constants.h"
@@ -16,6 +21,8 @@
 #include "gl/pass_timers.h"
 #include "gl/picture.h"
 #include "gl/scene_pass.h"
+#include "gl/tile_pass.h"
+#include "gl/tone_pass.h"
 #include "scene/crystals.h"
 
 namespace spindrift::gl
@@ -23,6 +30,12 @@ namespace spindrift::gl
 
 namespace
 {
+
+AirKind air_kind(const FramePlan& plan)
+{
+    if (plan.runs("airlight")) return AirKind::glowing;
+    return plan.runs("fog") ? AirKind::thick : AirKind::clear;
+}
 
 glm::vec4 vec4(const Vec3f& v, float w)
 {
@@ -45,8 +58,15 @@ struct Renderer::Impl
     Texture mask_texture;
     Picture picture;
     ScenePass scene_pass;
-    FullScreenPass sky, tone, depth_tiles;
+    FullScreenPass sky, depth_tiles;
+    AirPass air;
     FlakePass flakes;
+    ExposurePass exposure;
+    std::optional<BloomPass> bloom;  ///< made when a plan first asks for it
+    TonePass tone;
+    std::optional<TonePass> low_range;  ///< made when it is first asked for
+    TilePass tiles;
+    Splatter* splatter;
     Buffer frame_block;
     Buffer light_buffer;
     std::size_t light_room = 0;
@@ -55,7 +75,7 @@ struct Renderer::Impl
     GLsync flakes_read = nullptr;
 
     Impl(const scene::Scene& s, const scene::Geometry& geometry, const World& w, const FlakeBuffers& buffers,
-         int width, int height)
+         int width, int height, Splatter* blender)
         : scene(s),
           snow(w.snow),
           seed(w.seed),
@@ -64,9 +84,13 @@ struct Renderer::Impl
           picture(width, height),
           scene_pass(s, geometry),
           sky("sky.vert", "sky.frag"),
-          tone("tone.vert", "tone.frag"),
-          depth_tiles("tone.vert", "depth_tiles.frag"),
+          depth_tiles("full_screen.vert", "depth_tiles.frag"),
+          air(s),
           flakes(s.render, static_cast<double>(w.snow.weight), buffers),
+          exposure(s.render, width, height),
+          tone(s),
+          tiles(s, w, buffers),
+          splatter(blender),
           frame_block(make_buffer(sizeof(FrameConstants), nullptr, GL_DYNAMIC_STORAGE_BIT)),
           fenced(buffers.access() == FlakeBuffers::Access::mapped)
     {
@@ -78,12 +102,16 @@ struct Renderer::Impl
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
-    void upload_lights(const std::vector<PackedLight>& lights);
+    void upload_lights(const std::vector<Lamp<float>>& lamps);
+    /// How often flakes get the ambient light: once; as the report prints it, for each lamp.
+    std::uint32_t flake_ambient_times(std::size_t lights) const;
     FrameConstants constants(const View& view, std::size_t lights, double time_s) const;
     void draw_solid(const FramePlan& plan, const View& view, std::size_t lights, double time_s);
+    void draw_air(const FramePlan& plan, std::size_t lights);
     void draw_flakes(const FramePlan& plan, const View& view, const DrawList& list, std::size_t lights);
     void prepare_depth();
-    void draw_tone(const FramePlan& plan);
+    void develop(const FramePlan& plan, double time_s);
+    void draw_tiles(const FramePlan& plan, const TilePass::Frame& frame);
 
     template <class Draw>
     void timed(const char* name, const Draw& draw)
@@ -94,8 +122,10 @@ struct Renderer::Impl
     }
 };
 
-void Renderer::Impl::upload_lights(const std::vector<PackedLight>& lights)
+void Renderer::Impl::upload_lights(const std::vector<Lamp<float>>& lamps)
 {
+    std::vector<PackedLight> lights;
+    for (const Lamp<float>& lamp : lamps) lights.push_back(pack(lamp));
     if (lights.size() > light_room || !light_buffer)
     {
         light_room = std::max<std::size_t>(lights.size() * 2, 8);
@@ -109,6 +139,12 @@ void Renderer::Impl::upload_lights(const std::vector<PackedLight>& lights)
     glBindBufferBase(GL_UNIFORM_BUFFER, kFewLights, light_buffer.name());
 }
 
+std::uint32_t Renderer::Impl::flake_ambient_times(std::size_t lights) const
+{
+    const bool legacy = scene.render.scattering == scene::Scattering::legacy;
+    return legacy ? static_cast<std::uint32_t>(std::max<std::size_t>(lights, 1)) : 1;
+}
+
 FrameConstants Renderer::Impl::constants(const View& view, std::size_t lights, double time_s) const
 {
     const auto width = static_cast<float>(view.width_px);
@@ -116,20 +152,21 @@ FrameConstants Renderer::Impl::constants(const View& view, std::size_t lights, d
     const float tan_y = view.tan_half_fov_y;
     const float guard = std::round(view.guard_px);
     const auto scale = static_cast<float>(scene.render.flake_scale);
+    const std::uint32_t ambient_times = flake_ambient_times(lights);
     FrameConstants c;
     c.eye_time = vec4(view.eye, static_cast<float>(time_s));
     c.right_tan = vec4(view.right, tan_y * width / height);
     c.up_tan = vec4(view.up, tan_y);
     c.forward_near = vec4(view.forward, view.near_m);
     c.ambient_far = vec4(scene.sky.ambient, view.far_m);
-    c.zenith_exposure = vec4(scene.sky.zenith, static_cast<float>(scene.render.exposure));
+    c.zenith = vec4(scene.sky.zenith, 0);
     c.horizon_focal = vec4(scene.sky.horizon, height / (2 * tan_y));
     c.look = {mean_melted_mm(snow), scale, static_cast<float>(scene.render.flake_opacity),
               snow.weight / (scale * scale)};
     c.sprite = {sprite_limits(view).largest_px, width / (width + 2 * guard), height / (height + 2 * guard),
                 guard};
     c.counts = {static_cast<std::uint32_t>(lights), static_cast<std::uint32_t>(seed),
-                static_cast<std::uint32_t>(masks.size()), 0};
+                static_cast<std::uint32_t>(masks.size()), ambient_times};
     c.picture = {width, height, 0, 0};
     for (std::size_t i = 0; i < masks.size(); ++i)
         c.mask_means[i / 4][i % 4] = static_cast<float>(masks[i].mean);
@@ -147,13 +184,28 @@ void Renderer::Impl::draw_solid(const FramePlan& plan, const View& view, std::si
     glDepthMask(GL_TRUE);
     constexpr GLfloat far_depth = 0;
     glClearNamedFramebufferfv(picture.linear_target.name(), GL_DEPTH, 0, &far_depth);
-    if (plan.runs("scene")) timed("scene", [&] { scene_pass.draw(view.eye, lights, time_s); });
+    if (plan.runs("scene"))
+        timed("scene", [&] { scene_pass.draw(view.eye, lights, time_s, air_kind(plan)); });
     glDepthMask(GL_FALSE);
     if (plan.runs("sky"))
     {
         glDepthFunc(GL_GEQUAL);
         timed("sky", [&] { sky.draw(); });
     }
+    draw_air(plan, lights);
+}
+
+void Renderer::Impl::draw_air(const FramePlan& plan, std::size_t lights)
+{
+    if (!plan.runs("fog")) return;
+    timed("fog",
+          [&]
+          {
+              picture.copy_depth();
+              air.draw_fog(picture.depth_copy.name(), lights);
+          });
+    if (plan.runs("airlight"))
+        timed("airlight", [&] { air.draw_airlight(picture.depth_copy.name(), lights); });
 }
 
 void Renderer::Impl::draw_flakes(const FramePlan& plan, const View& view, const DrawList& list,
@@ -163,7 +215,10 @@ void Renderer::Impl::draw_flakes(const FramePlan& plan, const View& view, const 
     if (fades) timed("fade", [&] { prepare_depth(); });
     if (!plan.runs("flakes")) return;
     glBindTextureUnit(kMasks, mask_texture.name());
-    timed("flakes", [&] { flakes.draw({view, list, fades ? picture.depth_copy.name() : 0, lights}); });
+    timed("flakes",
+          [&] {
+              flakes.draw({view, list, fades ? picture.depth_copy.name() : 0, lights, air_kind(plan)});
+          });
     if (!fenced) return;
     if (flakes_read != nullptr) glDeleteSync(flakes_read);
     flakes_read = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
@@ -182,21 +237,37 @@ void Renderer::Impl::prepare_depth()
     glBindFramebuffer(GL_FRAMEBUFFER, picture.linear_target.name());
 }
 
-void Renderer::Impl::draw_tone(const FramePlan& plan)
+void Renderer::Impl::draw_tiles(const FramePlan& plan, const TilePass::Frame& frame)
 {
+    if (splatter == nullptr)
+        throw Error("the frame plan draws flakes in tiles, but the renderer has no splatter");
+    timed("tiles",
+          [&]
+          {
+              if (plan.runs("tone") && plan.tone_in_tiles)
+                  tiles.blend_and_develop(*splatter, frame, picture);
+              else
+                  tiles.blend(*splatter, frame, picture);
+          });
+}
+
+void Renderer::Impl::develop(const FramePlan& plan, double time_s)
+{
+    const GLuint linear = picture.linear.name();
+    if (plan.runs("exposure")) timed("exposure", [&] { exposure.draw(linear, time_s); });
+    exposure.bind();
+    const bool blooms = plan.runs("bloom");
+    if (blooms && !bloom) bloom.emplace(scene.bloom, picture.width, picture.height);
+    if (blooms) timed("bloom", [&] { bloom->draw(linear); });
     if (!plan.runs("tone")) return;
-    glBindFramebuffer(GL_FRAMEBUFFER, picture.encode_target.name());
+    glBindFramebuffer(GL_FRAMEBUFFER, picture.display_target.name());
     glViewport(0, 0, picture.width, picture.height);
-    glDisable(GL_DEPTH_TEST);
-    glEnable(GL_FRAMEBUFFER_SRGB);
-    glBindTextureUnit(0, picture.linear.name());
-    timed("tone", [&] { tone.draw(); });
-    glDisable(GL_FRAMEBUFFER_SRGB);
+    timed("tone", [&] { tone.draw(linear, blooms ? &*bloom : nullptr); });
 }
 
 Renderer::Renderer(const scene::Scene& scene, const scene::Geometry& geometry, const World& world,
-                   const FlakeBuffers& buffers, int width_px, int height_px)
-    : impl_(std::make_unique<Impl>(scene, geometry, world, buffers, width_px, height_px))
+                   const FlakeBuffers& buffers, int width_px, int height_px, Splatter* splatter)
+    : impl_(std::make_unique<Impl>(scene, geometry, world, buffers, width_px, height_px, splatter))
 {
 }
 Renderer::~Renderer() = default;
@@ -206,18 +277,28 @@ void Renderer::draw(const FramePlan& plan, const View& view, const DrawList& fla
     Impl& m = *impl_;
     if (view.width_px != m.picture.width || view.height_px != m.picture.height)
         resize(view.width_px, view.height_px);
+    m.tiles.discard();
     m.timers.begin_frame();
-    const std::vector<PackedLight> lights = plan.runs("lights")
-                                                ? active_lights(m.scene, m.model_lights, view, time_s).lights
-                                                : std::vector<PackedLight>{};
+    const std::vector<Lamp<float>> lights = plan.runs("lights")
+                                                ? active_lights(m.scene, m.model_lights, view, time_s).lamps
+                                                : std::vector<Lamp<float>>{};
     m.upload_lights(lights);
     const FrameConstants constants = m.constants(view, lights.size(), time_s);
     glNamedBufferSubData(m.frame_block.name(), 0, sizeof(constants), &constants);
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBlock, m.frame_block.name());
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    m.air.prepare(plan, view, time_s);
     m.draw_solid(plan, view, lights.size(), time_s);
     m.draw_flakes(plan, view, flakes, lights.size());
-    m.draw_tone(plan);
+    const bool in_tiles = plan.runs("tiles");
+    if (in_tiles)
+    {
+        const scene::Colour& ambient = m.scene.sky.ambient;
+        const auto times = static_cast<float>(m.flake_ambient_times(lights.size()));
+        m.draw_tiles(plan, {view, flakes, lights, Vec3f{ambient.r, ambient.g, ambient.b} * times,
+                            m.air.before_flakes(), time_s});
+    }
+    if (!in_tiles || !plan.tone_in_tiles) m.develop(plan, time_s);
 }
 
 void Renderer::wait_for_flakes() const
@@ -232,12 +313,26 @@ void Renderer::wait_for_flakes() const
 
 void Renderer::resize(int width_px, int height_px)
 {
-    if (width_px != impl_->picture.width || height_px != impl_->picture.height)
-        impl_->picture = Picture(width_px, height_px);
+    if (width_px == impl_->picture.width && height_px == impl_->picture.height) return;
+    impl_->tiles.discard();
+    impl_->picture = Picture(width_px, height_px);
+    impl_->exposure.resize(width_px, height_px);
+    impl_->bloom.reset();
+}
+
+double Renderer::exposure() const
+{
+    return impl_->exposure.exposure();
+}
+
+bool Renderer::found_bright() const
+{
+    return impl_->bloom && impl_->bloom->found_bright();
 }
 
 image::Image Renderer::read_linear() const
 {
+    impl_->tiles.bring_back(impl_->picture);
     const Picture& picture = impl_->picture;
     const std::size_t row = static_cast<std::size_t>(picture.width) * 4;
     const auto rows = static_cast<std::size_t>(picture.height);
@@ -263,6 +358,22 @@ image::Image8 Renderer::read_display() const
         for (std::size_t x = 0; x < columns; ++x)
             std::copy_n(&pixels[((rows - 1 - y) * columns + x) * 4], 3, &image.rgb[(y * columns + x) * 3]);
     return image;
+}
+
+void Renderer::develop_low_range()
+{
+    Impl& m = *impl_;
+    m.tiles.bring_back(m.picture);
+    if (!m.low_range)
+    {
+        scene::Scene plain = m.scene;
+        plain.display.tone = ToneCurve::linear;
+        m.low_range.emplace(plain);
+    }
+    m.exposure.bind();
+    glBindFramebuffer(GL_FRAMEBUFFER, m.picture.display_target.name());
+    glViewport(0, 0, m.picture.width, m.picture.height);
+    m.low_range->draw(m.picture.linear.name(), nullptr);
 }
 
 void Renderer::present(int framebuffer_width, int framebuffer_height)

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/surface.h"
 #include "scene/make_world.h"
 
 namespace spindrift::gl
@@ -18,8 +19,15 @@ constexpr std::array<std::string_view, 2> kMeshFiles{"scene.vert", "scene.frag"}
 constexpr GLint kOffset = 0;
 constexpr GLint kAlbedo = 1;
 constexpr GLint kEmission = 2;
+constexpr GLint kGloss = 3;
+constexpr GLint kMatt = 4;
 
 static_assert(sizeof(scene::Vertex) == 24, "position and normal, tightly packed");
+
+bool shines(const scene::Material& material)
+{
+    return material.roughness < 1;
+}
 
 void set_material(GLuint program, const scene::Material& material)
 {
@@ -27,6 +35,11 @@ void set_material(GLuint program, const scene::Material& material)
     const scene::Colour& e = material.emission;
     glProgramUniform3f(program, kAlbedo, a.r, a.g, a.b);
     glProgramUniform3f(program, kEmission, e.r, e.g, e.b);
+    if (!shines(material)) return;
+    const Gloss<float> gloss = gloss_of(Vec3f{a.r, a.g, a.b}, material.roughness, material.metallic);
+    const Vec3f m = gloss.mirrored * lobe_height(gloss.exponent);
+    glProgramUniform4f(program, kGloss, m.x, m.y, m.z, gloss.exponent);
+    glProgramUniform3f(program, kMatt, gloss.matt.x, gloss.matt.y, gloss.matt.z);
 }
 
 template <class T>
@@ -61,7 +74,7 @@ ScenePass::Body ScenePass::make_body(const scene::Scene& scene, const scene::Mes
 }
 
 ScenePass::ScenePass(const scene::Scene& scene, const scene::Geometry& geometry)
-    : program_(kMeshFiles), domain_(scene.domain)
+    : matt_(kMeshFiles), shiny_(kMeshFiles, {"SHINY"}), domain_(scene.domain)
 {
     for (const scene::Mesh& mesh : geometry.meshes)
         if (!mesh.vertices.empty() && !mesh.parts.empty()) bodies_.push_back(make_body(scene, mesh));
@@ -90,17 +103,18 @@ std::vector<ScenePass::Draw> ScenePass::near_to_far(const Vec3f& eye, double tim
     return draws;
 }
 
-void ScenePass::draw(const Vec3f& eye, std::size_t lights, double time_s) const
+void ScenePass::draw(const Vec3f& eye, std::size_t lights, double time_s, AirKind air) const
 {
     if (bodies_.empty()) return;
-    const GLuint program = program_.for_lights(lights);
-    glUseProgram(program);
     glDepthFunc(GL_GREATER);
     for (const Draw& draw : near_to_far(eye, time_s))
     {
         const MeshCluster& cluster = *draw.cluster;
+        const scene::Material& material = draw.body->materials.at(static_cast<std::size_t>(cluster.material));
+        const GLuint program = (shines(material) ? shiny_ : matt_).in(air).for_lights(lights);
+        glUseProgram(program);
         glProgramUniform3f(program, kOffset, draw.offset_m.x, draw.offset_m.y, draw.offset_m.z);
-        set_material(program, draw.body->materials.at(static_cast<std::size_t>(cluster.material)));
+        set_material(program, material);
         glBindVertexArray(draw.body->array.name());
         glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(cluster.count), GL_UNSIGNED_INT,
                        reinterpret_cast<const void*>(cluster.first * sizeof(std::uint32_t)));

@@ -13,13 +13,12 @@
 namespace spindrift::gl
 {
 
-/// Draws the solid things; meshes on vehicles at their place. Depth first, so that light is computed once a
-/// pixel.
+/// Draws the solid things; meshes on vehicles at their place, near to far by cluster.
 class ScenePass
 {
   public:
     ScenePass(const scene::Scene& scene, const scene::Geometry& geometry);
-    void draw(const Vec3f& eye, std::size_t lights, double time_s) const;
+    void draw(const Vec3f& eye, std::size_t lights, double time_s, AirKind air) const;
 
   private:
     struct Body
@@ -42,7 +41,7 @@ class ScenePass
     Vec3f offset_of(const Body& body, double time_s) const;
     Body make_body(const scene::Scene& scene, const scene::Mesh& mesh) const;
 
-    LitProgram program_;
+    ByAir matt_, shiny_;
     std::vector<Body> bodies_;
     scene::DomainSettings domain_;
 };

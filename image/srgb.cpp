@@ -27,4 +27,17 @@ Image8 to_srgb8(const Image& display_linear)
     return out;
 }
 
+Image8 side_by_side(const Image8& left, const Image8& right)
+{
+    Image8 out{left.width + right.width, left.height, {}};
+    out.rgb.reserve(left.rgb.size() + right.rgb.size());
+    for (int y = 0; y < left.height; ++y)
+        for (const Image8* part : {&left, &right})
+        {
+            const auto row = part->rgb.begin() + static_cast<std::ptrdiff_t>(y) * part->width * 3;
+            out.rgb.insert(out.rgb.end(), row, row + static_cast<std::ptrdiff_t>(part->width) * 3);
+        }
+    return out;
+}
+
 }  // namespace spindrift::image

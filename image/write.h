@@ -24,6 +24,9 @@ Image read_exr(const std::filesystem::path& file);
 float srgb_encode(float linear);
 Image8 to_srgb8(const Image& display_linear);
 
+/// Two pictures of one height as one.
+Image8 side_by_side(const Image8& left, const Image8& right);
+
 /// A run's pictures, by the output pattern: "x.mp4" (H.264 by an ffmpeg process), "x_%04d.png" or ".exr"
 /// (sequence; printf integer), "x.png" / "x.exr" (the last frame only).
 class FrameWriter

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "cpu/huge_pages.h"
 #include "cpu/sort/passes.h"
 #include "cpu/sort/strategy.h"
 #include "measure/pinned_threads.h"
@@ -58,7 +59,11 @@ SortTraits traits_of(const cpu::SortStrategy& strategy, int key_bits)
 
 struct Arrays
 {
-    explicit Arrays(std::size_t n) : pairs(n), scratch(n) {}
+    explicit Arrays(std::size_t n) : pairs(n), scratch(n)
+    {
+        for (auto* array : {&pairs, &scratch})  // as the program's draw list
+            cpu::ask_for_huge_pages(array->data(), n * sizeof(std::uint64_t));
+    }
     std::vector<std::uint64_t> pairs, scratch;
 };
 

@@ -30,7 +30,8 @@ struct Frame
     const World& world;
     const View& view;
     const RayScene& solids;
-    const Lights& lights;
+    const scene::Air& air;
+    const Lighting& lighting;
     const std::vector<scene::CrystalMask>& crystals;
     const std::vector<Sprite>& sprites;
 };
@@ -52,8 +53,14 @@ Canvas empty_canvas(const Frame& frame, int x, int y)
     const Vec3d eye = wide(view.eye);
     Hit hit;
     const bool met = frame.solids.first_hit(eye, direction, view.near_m, view.far_m, hit);
-    if (!met) return {sky_radiance(frame.scene.sky, direction), std::numeric_limits<double>::infinity()};
-    return {surface_radiance(frame.lights, frame.scene.sky, hit, eye + direction * hit.along), hit.along};
+    const double length = std::sqrt(dot(direction, direction));
+    const Vec3d way = direction * (1 / length);
+    // The air ends at the far plane.
+    const double depth_m = met ? hit.along : view.far_m;
+    const AirView air = air_before(frame.scene, frame.air, frame.lighting, view, way, depth_m * length);
+    const Rgb seen = met ? surface_radiance(frame.lighting, hit, eye + direction * hit.along, way * -1.0)
+                         : sky_radiance(frame.scene.sky, direction);
+    return {seen * air.clear + air.glow, met ? hit.along : std::numeric_limits<double>::infinity()};
 }
 
 void blend(scene::Blending blending, const Dab& dab, double z, Canvas& canvas)
@@ -97,10 +104,11 @@ image::Image render(const scene::Scene& scene, const scene::Geometry& geometry, 
                     const FlakeView& flakes, std::size_t used, const View& view, double time_s)
 {
     const RayScene solids(scene, geometry, time_s);
-    const Lights lights = lights_at(scene, geometry, time_s);
+    const scene::Air air = scene::air_at(scene, view, time_s);
+    const Lighting lighting = lighting_at(scene, geometry, air, time_s);
     static const std::vector<scene::CrystalMask> crystals = scene::grow_crystals();
-    const std::vector<Sprite> sprites = make_sprites(scene, world, flakes, used, view, lights, time_s);
-    const Frame frame{scene, world, view, solids, lights, crystals, sprites};
+    const std::vector<Sprite> sprites = make_sprites(scene, world, flakes, used, view, air, lighting, time_s);
+    const Frame frame{scene, world, view, solids, air, lighting, crystals, sprites};
 
     image::Image out(view.width_px, view.height_px);
     const int workers = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 16U));

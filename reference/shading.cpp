@@ -5,6 +5,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/airlight.h"
+#include "core/surface.h"
+#include "core/visibility.h"
+#include "scene/lamp_kind.h"
 #include "scene/make_world.h"
 
 namespace spindrift::reference
@@ -27,32 +31,19 @@ Vec3d local_position(const scene::Light& light, const scene::Scene& scene, doubl
     return light.position_m - scene.domain.min_m;
 }
 
-LampKind kind_of(scene::LightKind kind)
-{
-    switch (kind)
-    {
-        case scene::LightKind::spot:
-            return LampKind::spot;
-        case scene::LightKind::directional:
-            return LampKind::directional;
-        case scene::LightKind::point:
-            break;
-    }
-    return LampKind::point;
-}
-
 Lamp<double> lamp_of(const scene::Light& light, const scene::Scene& scene, double time_s)
 {
     const auto cosine = [](double degrees) { return std::cos(degrees * std::numbers::pi / 180); };
     Lamp<double> lamp;
-    lamp.kind = kind_of(light.kind);
+    lamp.kind = scene::lamp_kind(light.kind);
     lamp.position_m = local_position(light, scene, time_s);
     lamp.direction = light.direction;
     lamp.intensity = rgb(light.intensity);
     lamp.range_m = light.range_m;
     lamp.cos_inner = cosine(light.inner_cone_deg);
     lamp.cos_outer = cosine(light.outer_cone_deg);
-    lamp.g = light.g;
+    lamp.phase = {light.phase, light.g, light.g_back, light.back_share};
+    if (scene.render.scattering == scene::Scattering::legacy) lamp.phase = turned_round(lamp.phase);
     return lamp;
 }
 
@@ -73,27 +64,33 @@ Vec3d wide(const Vec3f& v)
     return {v.x, v.y, v.z};
 }
 
-Lights lights_at(const scene::Scene& scene, const scene::Geometry& geometry, double time_s)
+Lighting lighting_at(const scene::Scene& scene, const scene::Geometry& geometry, const scene::Air& air,
+                     double time_s)
 {
-    Lights lights;
+    Lighting lighting;
     for (const auto* list : {&scene.lights, &geometry.model_lights})
         for (const scene::Light& light : *list)
-            if (shines(light, time_s)) lights.push_back(lamp_of(light, scene, time_s));
-    return lights;
+            if (shines(light, time_s)) lighting.lights.push_back(lamp_of(light, scene, time_s));
+    lighting.ambient = lighting.flake_ambient = rgb(scene.sky.ambient);
+    if (scene.render.scattering == scene::Scattering::legacy)
+        lighting.flake_ambient =
+            lighting.ambient * static_cast<double>(std::max<std::size_t>(lighting.lights.size(), 1));
+    if (air.law == scene::FogLaw::exponential) lighting.air = air.layers;
+    return lighting;
 }
 
-FlakeLight flake_light(const Lights& lights, const scene::SkySettings& sky, const View& view,
-                       const Vec3d& flake)
+FlakeLight flake_light(const Lighting& lighting, const View& view, const Vec3d& flake)
 {
     const Vec3d way = wide(view.eye) - flake;
     const Vec3d to_eye = way * (1 / std::sqrt(dot(way, way)));
     FlakeLight out;
-    out.ambient = rgb(sky.ambient);
+    out.ambient = lighting.flake_ambient;
     Vec3d mean{0, 0, 0};
-    for (const Lamp<double>& lamp : lights)
+    for (const Lamp<double>& lamp : lighting.lights)
     {
-        const LampLight<double> from = lamp_light(lamp, flake);
-        out.lamps = out.lamps + scattered(from, lamp.g, to_eye);
+        LampLight<double> from = lamp_light(lamp, flake);
+        from.irradiance = from.irradiance * reaching(lighting.air, lamp, flake);
+        out.lamps = out.lamps + scattered(from, lamp.phase, to_eye);
         mean = mean + from.towards * luminance(from.irradiance);
     }
     const double length = std::sqrt(dot(mean, mean));
@@ -102,15 +99,50 @@ FlakeLight flake_light(const Lights& lights, const scene::SkySettings& sky, cons
     return out;
 }
 
-Rgb surface_radiance(const Lights& lights, const scene::SkySettings& sky, const Hit& hit, const Vec3d& place)
+Rgb surface_radiance(const Lighting& lighting, const Hit& hit, const Vec3d& place, const Vec3d& to_eye)
 {
-    Rgb sum = rgb(sky.ambient) * (0.75 + 0.25 * hit.normal.z);
-    for (const Lamp<double>& lamp : lights)
+    const scene::Material& material = hit.material;
+    const Vec3d albedo = rgb(material.albedo);
+    const bool shiny = material.roughness < 1;
+    const Gloss<double> gloss = shiny
+                                    ? gloss_of(albedo, double{material.roughness}, double{material.metallic})
+                                    : Gloss<double>{{}, albedo, 0};
+    Rgb sum = product(albedo, lighting.ambient) * (0.75 + 0.25 * hit.normal.z) + rgb(material.emission);
+    for (const Lamp<double>& lamp : lighting.lights)
     {
         const LampLight<double> from = lamp_light(lamp, place);
-        sum = sum + from.irradiance * (std::max(dot(hit.normal, from.towards), 0.0) / std::numbers::pi);
+        const double share = reaching(lighting.air, lamp, place);
+        const double facing = std::max(dot(hit.normal, from.towards), 0.0) * share / std::numbers::pi;
+        sum = sum + product(gloss.matt, from.irradiance) * facing;
+        if (!shiny) continue;
+        const double lobe = highlight(gloss.exponent, hit.normal, from.towards, to_eye);
+        sum = sum + product(gloss.mirrored, from.irradiance) * (lobe * share);
     }
-    return product(rgb(hit.material.albedo), sum) + rgb(hit.material.emission);
+    return sum;
+}
+
+AirView air_before(const scene::Scene& scene, const scene::Air& air, const Lighting& lighting,
+                   const View& view, const Vec3d& way, double distance_m)
+{
+    if (!air.thick()) return {};
+    const AirPath<double> path(air.layers, air.volume(), wide(view.eye), way, dot(way, wide(view.forward)));
+    AirView seen;
+    if (air.law == scene::FogLaw::legacy)
+    {
+        // Beyond the flakes' volume, which the eye may be in.
+        const double before_m = path.enters_m > 0 ? 0 : std::min(path.leaves_m, distance_m);
+        seen.clear = report_transmittance(air.visibility_share, distance_m - before_m);
+    }
+    else
+        seen.clear = std::exp(-path.of_fog(distance_m));
+    Rgb source = lighting.flake_ambient;
+    for (const Lamp<double>& lamp : lighting.lights)
+        if (lamp.kind == LampKind::directional)
+            source = source + lamp.intensity * scattered_share(lamp.phase, -dot(lamp.direction, way));
+        else if (scene.air.airlight && air.law == scene::FogLaw::exponential)
+            seen.glow = seen.glow + airlight_to(path, lamp, distance_m);
+    seen.glow = seen.glow + source * (1 - seen.clear);
+    return seen;
 }
 
 }  // namespace spindrift::reference

@@ -7,6 +7,7 @@
 #include "core/vec.h"
 #include "core/view.h"
 #include "reference/ray_scene.h"
+#include "scene/air.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
 
@@ -21,7 +22,6 @@ Vec3d wide(const Vec3f& v);
 
 /// The lamps that shine at one display time.
 using Lights = std::vector<Lamp<double>>;
-Lights lights_at(const scene::Scene& scene, const scene::Geometry& geometry, double time_s);
 
 /// The light that a flake sends to the eye.
 struct FlakeLight
@@ -32,10 +32,31 @@ struct FlakeLight
                       ///< without lamps
 };
 
-FlakeLight flake_light(const Lights& lights, const scene::SkySettings& sky, const View& view,
-                       const Vec3d& flake);
+/// What lights flakes, fog and surfaces at one display time.
+struct Lighting
+{
+    Lights lights;
+    Rgb ambient{};        ///< of surfaces
+    Rgb flake_ambient{};  ///< of flakes and fog
+    AirLayers<double> air;
+};
+Lighting lighting_at(const scene::Scene& scene, const scene::Geometry& geometry, const scene::Air& air,
+                     double time_s);
 
-/// What a surface that is met at a place sends back along the ray.
-Rgb surface_radiance(const Lights& lights, const scene::SkySettings& sky, const Hit& hit, const Vec3d& place);
+FlakeLight flake_light(const Lighting& lighting, const View& view, const Vec3d& flake);
+
+/// What a surface that is met at a place sends back along the ray; `to_eye` is a unit vector.
+Rgb surface_radiance(const Lighting& lighting, const Hit& hit, const Vec3d& place, const Vec3d& to_eye);
+
+/// What the air before a thing adds to its light, and the share of it that it lets through.
+struct AirView
+{
+    Rgb glow{};
+    double clear = 1;
+};
+
+/// Of `distance_m` along a unit way from the eye.
+AirView air_before(const scene::Scene& scene, const scene::Air& air, const Lighting& lighting,
+                   const View& view, const Vec3d& way, double distance_m);
 
 }  // namespace spindrift::reference

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/snow.h"
+#include "core/sprite.h"
 
 namespace spindrift::reference
 {
@@ -12,51 +13,47 @@ namespace spindrift::reference
 namespace
 {
 
-// All from docs/drawing.md, "Its sprite" and "Its light".
-constexpr double kSmallestRadius = 0.75;
-constexpr double kLargestRadius = 127;
-constexpr double kPlainBelow = 3, kDetailFrom = 6;  ///< px: between them mask and imposter fade in
-constexpr double kMostOpacity = 0.9999;
-constexpr double kThinnestFade = 0.05;
-constexpr double kMostRadiance = 6e4;
-constexpr double kImposter = 0.5;
-
-double detail_of(double r)
-{
-    return std::clamp((r - kPlainBelow) / (kDetailFrom - kPlainBelow), 0.0, 1.0);
-}
-
 /// Radius as drawn, and the opacity that keeps the coverage of flakes below the smallest radius.
 void set_size(Sprite& sprite, const scene::RenderSettings& render, const View& view, double diameter_m)
 {
     const double focal_px = view.height_px / (2.0 * view.tan_half_fov_y);
+    const double largest_px = std::min<double>(view.guard_px, kLargestSprite_px);
     sprite.radius_m = 0.5 * diameter_m * render.flake_scale;
-    const double r = sprite.radius_m * focal_px / sprite.z;
-    const double smaller = std::min(r / kSmallestRadius, 1.0);
-    sprite.r = std::clamp(r, kSmallestRadius, std::min<double>(view.guard_px, kLargestRadius));
-    sprite.opacity = smaller * smaller * std::clamp((sprite.z - view.near_m) / (3.0 * view.near_m), 0.0, 1.0);
+    const SpriteSize<double> size =
+        sprite_size<double>(sprite.radius_m, sprite.z, focal_px, largest_px, view.near_m);
+    sprite.r = size.radius_px;
+    sprite.opacity = size.opacity;
 }
 
 /// Sprite in the colour of its flake: crystal sprites that are lit and large enough are shaded as spheres.
-Rgb radiance(const Sprite& sprite, const scene::RenderSettings& render, double px, double py, double rho2)
+Rgb radiance(const Sprite& sprite, const scene::RenderSettings& render, double px, double py)
 {
-    const Vec3d& l = sprite.light.towards;
     double shade = 1;
     if (render.blending != scene::Blending::opaque && render.sprite == scene::Sprite::crystal)
-    {
-        const double normal_z = std::sqrt(std::max(1 - rho2, 0.0));
-        const double facing = px * l.x + py * l.y + normal_z * l.z;
-        const double t = detail_of(sprite.r);
-        shade = (1 - t) + t * (1 + kImposter * facing) / (1 + kImposter * 2 / 3 * l.z);
-    }
+        shade = imposter(px, py, sprite.light.towards, sprite_detail(sprite.r));
     const Rgb sum = sprite.light.ambient + sprite.light.lamps * shade;
-    return {std::min(sum.x, kMostRadiance), std::min(sum.y, kMostRadiance), std::min(sum.z, kMostRadiance)};
+    const Rgb own{std::min(sum.x, kMostRadiance), std::min(sum.y, kMostRadiance),
+                  std::min(sum.z, kMostRadiance)};
+    return own * sprite.air.clear + sprite.air.glow;
+}
+
+/// Of the air before a flake `d` away. Beyond the flakes' volume alone begins the report's fog.
+AirView flake_air(const scene::Scene& scene, const scene::Air& air, const Lighting& lighting,
+                  const View& view, const Vec3d& d)
+{
+    if (air.law == scene::FogLaw::legacy) return {};
+    const double distance_m = std::sqrt(dot(d, d));
+    AirView seen = air_before(scene, air, lighting, view, d * (1 / distance_m), distance_m);
+    // What is added covers nothing: the fog before it is in the picture already.
+    if (scene.render.blending == scene::Blending::additive) seen.glow = {0, 0, 0};
+    return seen;
 }
 
 }  // namespace
 
 std::vector<Sprite> make_sprites(const scene::Scene& scene, const World& world, const FlakeView& flakes,
-                                 std::size_t used, const View& view, const Lights& lights, double time_s)
+                                 std::size_t used, const View& view, const scene::Air& air,
+                                 const Lighting& lighting, double time_s)
 {
     const Vec3d eye = wide(view.eye), right = wide(view.right), up = wide(view.up),
                 forward = wide(view.forward);
@@ -76,13 +73,16 @@ std::vector<Sprite> make_sprites(const scene::Scene& scene, const World& world, 
         sprite.x = 0.5 * view.width_px + dot(d, right) / sprite.z * focal_px;
         sprite.y = 0.5 * view.height_px - dot(d, up) / sprite.z * focal_px;
         set_size(sprite, scene.render, view, sizes.diameter_m<double>(sprite.id));
+        if (air.tiny_flakes_fade && scene.render.blending != scene::Blending::opaque)
+            sprite.opacity *= kept_of_tiny(2 * sprite.radius_m * focal_px / sprite.z);
         if (sprite.x < -sprite.r || sprite.y < -sprite.r || sprite.x > view.width_px + sprite.r ||
             sprite.y > view.height_px + sprite.r)
             continue;
         const FlakeTurn turn = flake_turn(world.seed, sprite.id, scene::kCrystalShapes);
         sprite.shape = static_cast<int>(turn.shape);
         sincos_turns(turn.turns_at(time_s), sprite.sine, sprite.cosine);
-        sprite.light = flake_light(lights, scene.sky, view, at);
+        sprite.light = flake_light(lighting, view, at);
+        sprite.air = flake_air(scene, air, lighting, view, d);
         sprites.push_back(sprite);
     }
     std::sort(sprites.begin(), sprites.end(),
@@ -99,14 +99,14 @@ Dab dab_at(const Sprite& sprite, const scene::Scene& scene, const World& world,
     const double py = (sprite.y - pixel_y) / sprite.r;
     const double rho2 = px * px + py * py;
     if (rho2 > 1 || sprite.z >= z_scene) return {};
-    const Rgb colour = radiance(sprite, render, px, py, rho2);
+    const Rgb colour = radiance(sprite, render, px, py);
     if (render.blending == scene::Blending::opaque) return {1, colour};
 
     double profile = 1;
     if (render.sprite == scene::Sprite::crystal)
     {
         const scene::CrystalMask& crystal = crystals[static_cast<std::size_t>(sprite.shape)];
-        const double t = detail_of(sprite.r);
+        const double t = sprite_detail(sprite.r);
         double mask = crystal.mean;
         if (t > 0)
         {
@@ -114,13 +114,11 @@ Dab dab_at(const Sprite& sprite, const scene::Scene& scene, const World& world,
             mask += t * (scene::sample_mask(crystal, u, v, std::max(0.0, std::log2(64 / sprite.r))) -
                          crystal.mean);
         }
-        profile =
-            render.flake_opacity * std::exp(-rho2 / (2 * scene::kProfileSigma * scene::kProfileSigma)) * mask;
+        profile = render.flake_opacity * sprite_profile(rho2) * mask;
     }
-    const double opacity = std::min(sprite.opacity * profile, kMostOpacity);
     const double real_flakes = world.snow.weight / (render.flake_scale * render.flake_scale);
-    const double fade = std::clamp((z_scene - sprite.z) / std::max(sprite.radius_m, kThinnestFade), 0.0, 1.0);
-    return {(1 - std::pow(1 - opacity, real_flakes)) * fade, colour};
+    const double alpha = weighted_opacity(sprite.opacity * profile, real_flakes);
+    return {alpha * soft_edge(z_scene, sprite.z, 1 / std::max(sprite.radius_m, kThinnestFade_m)), colour};
 }
 
 }  // namespace spindrift::reference

@@ -27,11 +27,13 @@ struct Sprite
     double cosine = 1, sine = 0;  ///< of its angle
     int shape = 0;
     FlakeLight light;
+    AirView air;  ///< before the flake
 };
 
 /// Every alive flake that can touch the picture, far to near.
 std::vector<Sprite> make_sprites(const scene::Scene& scene, const World& world, const FlakeView& flakes,
-                                 std::size_t used, const View& view, const Lights& lights, double time_s);
+                                 std::size_t used, const View& view, const scene::Air& air,
+                                 const Lighting& lighting, double time_s);
 
 /// What a sprite does to one pixel.
 struct Dab

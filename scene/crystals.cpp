@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "scene/crystals.h"
+#include "core/sprite.h"
 
 #include <algorithm>
 #include <array>

@@ -12,8 +12,6 @@ namespace spindrift::scene
 inline constexpr int kCrystalShapes = 12;
 /// Edge of a mask's finest level in texels.
 inline constexpr int kCrystalMaskPx = 128;
-/// Width of a flake's Gaussian in units of the disc's radius (docs/drawing.md).
-inline constexpr double kProfileSigma = 0.45;
 
 /// The outline of a grown snow crystal: coverage (255: ice) over the square that encloses the unit disc.
 struct CrystalMask

@@ -20,6 +20,16 @@ constexpr std::array<Named<Blending>, 3> kBlendings{
     {{Blending::over, "over"}, {Blending::additive, "additive"}, {Blending::opaque, "opaque"}}};
 constexpr std::array<Named<Sprite>, 2> kSprites{{{Sprite::crystal, "crystal"}, {Sprite::point, "point"}}};
 
+constexpr std::array<Named<PhaseKind>, 3> kPhases{{{PhaseKind::henyey_greenstein, "henyey-greenstein"},
+                                                   {PhaseKind::double_lobe, "double"},
+                                                   {PhaseKind::schlick, "schlick"}}};
+constexpr std::array<Named<Scattering>, 2> kScatterings{
+    {{Scattering::physical, "physical"}, {Scattering::legacy, "legacy"}}};
+/// With the second lobe's defaults the mean cosine stays 0.77: 0.9 · 0.889 - 0.1 · 0.3.
+constexpr double kFrontLobe = 0.889;
+constexpr std::array<Named<FlakePath>, 3> kFlakePaths{
+    {{FlakePath::automatic, "auto"}, {FlakePath::raster, "raster"}, {FlakePath::tiles, "tiles"}}};
+
 constexpr Range kShare{.min = 0, .max = 1};
 constexpr Range kLightAmount{.min = 0, .max = 1e9};
 
@@ -89,6 +99,36 @@ void describe_light_place(Section& section, Light& light)
         "use at most outer_cone_deg");
 }
 
+void describe_phase(Section& section, Light& light)
+{
+    section.choice(
+        {.name = "phase",
+         .about = "how flakes scatter this light: one Henyey-Greenstein lobe, two of them, or Schlick's "
+                  "cheaper stand-in for one"},
+        kPhases, light.phase);
+    const bool two = light.phase == PhaseKind::double_lobe;
+    if (two) light.g = kFrontLobe;
+    section.number(
+        {.name = "g",
+         .about = "how far flakes throw this light forward; 0: evenly. Of the front lobe with phase = "
+                  "\"double\", then 0.889 by default"},
+        {.min = -0.99, .max = 0.99, .why = "at 1 and -1 nothing is scattered aside"}, light.g);
+    section.require(
+        light.phase != PhaseKind::schlick || std::abs(light.g) <= kLargestSchlickG, "g",
+        "is too near to 1 for Schlick's function (from 0.938 on it has a pole)",
+        fmt::format("use {} to {}, or phase = \"henyey-greenstein\"", -kLargestSchlickG, kLargestSchlickG));
+    section.number({.name = "g_back",
+                    .about = "of the second lobe; negative: back to the lamp",
+                    .applies = two,
+                    .applies_when = "with phase = \"double\""},
+                   {.min = -0.99, .max = 0.99}, light.g_back);
+    section.number({.name = "back_share",
+                    .about = "share of the light that the second lobe takes",
+                    .applies = two,
+                    .applies_when = "with phase = \"double\""},
+                   kShare, light.back_share);
+}
+
 void describe_light(Section& section, std::vector<Light>& lights,
                     const std::vector<VehicleSettings>& vehicles)
 {
@@ -119,9 +159,7 @@ void describe_light(Section& section, std::vector<Light>& lights,
                     .applies = directional,
                     .applies_when = "with kind = \"directional\""},
                    kLightAmount, light.intensity);
-    section.number(
-        {.name = "g", .about = "how far flakes throw this light forward (Henyey-Greenstein); 0: evenly"},
-        {.min = -0.99, .max = 0.99, .why = "at 1 and -1 nothing is scattered aside"}, light.g);
+    describe_phase(section, light);
     describe_flashing(section, light);
     lights.push_back(light);
 }
@@ -211,6 +249,15 @@ void describe_render(Section& section, RenderSettings& render)
     section.choice({.name = "blending", .about = "sorted far to near, added without a sort, or opaque"},
                    kBlendings, render.blending);
     section.choice({.name = "sprite", .about = "grown crystals, or plain points"}, kSprites, render.sprite);
+    section.choice(
+        {.name = "scattering",
+         .about = "physical, or as the report prints it: back for forward, ambient light once per lamp"},
+        kScatterings, render.scattering);
+    section.choice(
+        {.name = "flake_path",
+         .about = "as points by GL's rasteriser, or in tiles by the processor; auto: tiles on software GL; "
+                  "also --flake-path"},
+        kFlakePaths, render.flake_path);
     std::size_t sort = static_cast<std::size_t>(std::find(kSortNames.begin(), kSortNames.end(), render.sort) -
                                                 kSortNames.begin());
     section.choice({.name = "sort", .about = "strategy of the depth sort (docs/sorting.md); also --sort"},
@@ -224,8 +271,7 @@ void describe_render(Section& section, RenderSettings& render)
     section.whole({.name = "sort_passes_per_frame",
                    .about = "steps of bitonic-passes and odd-even-passes; also --sort-passes"},
                   {.min = 1, .max = 4096}, render.sort_passes_per_frame);
-    section.number({.name = "exposure", .about = "factor on all light before the tone curve"},
-                   {.min = 0, .max = 1e6, .above_min = true}, render.exposure);
+    describe_exposure(section, render);
     section.number({.name = "flake_opacity", .about = "at the centre of a flake"}, kShare,
                    render.flake_opacity);
     section.number({.name = "flake_scale",
@@ -245,6 +291,7 @@ void describe_looks(Section& root, Scene& scene)
                  [&](Section& s) { describe_camera(s, scene.camera); });
     root.section({.name = "render", .about = "the pictures"},
                  [&](Section& s) { describe_render(s, scene.render); });
+    describe_development(root, scene);
 }
 
 }  // namespace spindrift::scene

@@ -130,6 +130,7 @@ void describe_scene(Section& root, Scene& scene)
                   [&](Section& s) { describe_vehicle(s, scene.vehicles); });
     describe_emitters(root, scene);
     describe_solids(root, scene);
+    describe_fog(root, scene);
     describe_looks(root, scene);
 }
 

@@ -13,10 +13,15 @@ namespace spindrift::scene
 void describe_scene(Section& root, Scene& scene);
 
 // Its parts, one table of the file each.
-void describe_air(Section& root, Scene& scene);       ///< snow, wind
-void describe_emitters(Section& root, Scene& scene);  ///< after domain, particles and vehicles
-void describe_solids(Section& root, Scene& scene);    ///< ground, boxes, models, voxels
-void describe_looks(Section& root, Scene& scene);     ///< lights, sky, camera, render
+void describe_air(Section& root, Scene& scene);          ///< snow, wind
+void describe_emitters(Section& root, Scene& scene);     ///< after domain, particles and vehicles
+void describe_solids(Section& root, Scene& scene);       ///< ground, boxes, models, voxels
+void describe_fog(Section& root, Scene& scene);          ///< air; after emitters and ground
+void describe_looks(Section& root, Scene& scene);        ///< lights, sky, camera, render, bloom, display
+void describe_development(Section& root, Scene& scene);  ///< bloom, display: from light to what is shown
+
+/// The keys of [render] that say how light is exposed.
+void describe_exposure(Section& section, RenderSettings& render);
 
 /// Coordinates in the world frame (m).
 inline constexpr Range kCoordinate{

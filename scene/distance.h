@@ -5,27 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "core/grid_size.h"
 #include "core/vec.h"
 
 namespace spindrift::scene
 {
-
-/// Cells along the three axes; x fastest, then y, then z.
-struct GridSize
-{
-    int nx = 0, ny = 0, nz = 0;
-
-    std::size_t count() const
-    {
-        return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) * static_cast<std::size_t>(nz);
-    }
-    std::size_t index(int x, int y, int z) const
-    {
-        return (static_cast<std::size_t>(z) * static_cast<std::size_t>(ny) + static_cast<std::size_t>(y)) *
-                   static_cast<std::size_t>(nx) +
-               static_cast<std::size_t>(x);
-    }
-};
 
 /// Turns `cells` (0: solid, else empty) into the Chebyshev distance in cells to the nearest solid one, capped
 /// at 255. Outside the grid nothing is solid. Exact: two chamfer passes over the 26 neighbours.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 
 #include "scene/height_field.h"
@@ -84,6 +85,16 @@ Geometry read_geometry(const Scene& scene)
     for (const ModelSettings& model : scene.models)
         geometry.meshes.push_back(read_model(scene, model, geometry.model_lights));
     return geometry;
+}
+
+double brightest_emission(const Geometry& geometry)
+{
+    float brightest = 0;
+    for (const Mesh& mesh : geometry.meshes)
+        for (const Material& material : mesh.materials)
+            brightest =
+                std::max({brightest, material.emission.r, material.emission.g, material.emission.b});
+    return brightest;
 }
 
 }  // namespace spindrift::scene

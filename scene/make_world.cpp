@@ -40,7 +40,10 @@ std::filesystem::path beside_scene(const Scene& scene, const std::filesystem::pa
 class Builder
 {
   public:
-    Builder(const Scene& scene, const Geometry& geometry) : scene_(scene), geometry_(geometry) {}
+    Builder(const Scene& scene, const Geometry& geometry, const WindProjector& project, GriddedWind* kept)
+        : scene_(scene), geometry_(geometry), project_(project), kept_(kept)
+    {
+    }
 
     World build()
     {
@@ -169,6 +172,9 @@ class Builder
             case WindSource::file:
                 set_file_wind();
                 break;
+            case WindSource::solve:
+                set_solved_wind();
+                break;
         }
     }
 
@@ -185,25 +191,65 @@ class Builder
         wind.friction_velocity_m_s = static_cast<float>(friction);
         wind.turbulent = settings.turbulence && friction > 0;
         if (!settings.around_solids) return;
-        FlowField flow = cell_means(wind_around_solids(wind, world_.size_m, settings.cell_m, world_.voxels),
-                                    {0, 0, static_cast<double>(wind.ground_m)});
+        SolvedWind solved;
+        solved.low_m = {0, 0, static_cast<double>(wind.ground_m)};
+        const WindProjector note = [&](StaggeredWind& staggered)
+        { return solved.projection = project_(staggered); };
+        solved.wind = wind_around_solids(wind, world_.size_m, settings.cell_m, world_.voxels, note);
+        FlowField flow = cell_means(solved.wind, solved.low_m);
         if (wind.turbulent) close_from_shear({z0, settings.boundary_layer_m, friction}, flow);
-        fill_wind_grid(flow, wind);
+        set_grid(std::move(solved), std::move(flow));
     }
 
     void set_file_wind()
     {
         const WindSettings& settings = scene_.wind;
-        make_divergence_free(file_->wind);
-        FlowField flow = cell_means(file_->wind, {0, 0, 0});
+        SolvedWind solved;
+        solved.wind = std::move(file_->wind);
+        solved.projection = project_(solved.wind);
+        FlowField flow = cell_means(solved.wind, {0, 0, 0});
         flow.stress = std::move(file_->stress);
         flow.c0_eps = std::move(file_->c0_eps);
+        file_.reset();
         if (!settings.turbulence)
             flow.stress.clear();
         else if (flow.stress.empty())
             close_from_shear({settings.roughness_m, settings.boundary_layer_m, friction_of(flow)}, flow);
+        set_grid(std::move(solved), std::move(flow));
+    }
+
+    void set_solved_wind()
+    {
+        const WindSettings& settings = scene_.wind;
+        const double floor = static_cast<double>(world_.wind.ground_m);
+        Surroundings around{
+            widen(world_.size_m), floor, [floor](double, double) { return floor; }, {}, &world_.voxels};
+        if (heights_) around.ground_m = [this](double x, double y) { return heights_->height_m(x, y); };
+        for (const BoxSettings& box : scene_.boxes)
+        {
+            const Vec3d low = box.min_m - scene_.domain.min_m, high = box.max_m - scene_.domain.min_m;
+            around.boxes.push_back({{{low, {high.x, low.y, 0}, high, {low.x, high.y, 0}}},
+                                    low.z,
+                                    high.z,
+                                    around.ground_m(0.5 * (low.x + high.x), 0.5 * (low.y + high.y))});
+        }
+        SolvedWind solved =
+            solve_wind(settings, around, project_, beside_scene(scene_, settings.cache_folder));
+        FlowField flow = cell_means(solved.wind, solved.low_m);
+        const double friction = InflowProfile(settings).friction_velocity_m_s();
+        if (settings.turbulence && friction > 0)
+            close_from_shear({settings.roughness_m, settings.boundary_layer_m, friction}, flow);
+        set_grid(std::move(solved), std::move(flow));
+    }
+
+    void set_grid(SolvedWind solved, FlowField flow)
+    {
         fill_wind_grid(flow, world_.wind);
-        file_.reset();
+        if (kept_ == nullptr) return;
+        if (solved.zone.empty())
+            for (const std::uint8_t solid : solved.wind.solid)
+                solved.zone.push_back(solid != 0 ? WindZone::building : WindZone::fluid);
+        *kept_ = {std::move(solved), std::move(flow)};
     }
 
     /// u* from the mean speed of the highest layer, were it logarithmic.
@@ -259,6 +305,8 @@ class Builder
 
     const Scene& scene_;
     const Geometry& geometry_;
+    const WindProjector& project_;
+    GriddedWind* kept_;
     World world_;
     std::optional<HeightField> heights_;
     std::optional<WindFile> file_;
@@ -267,9 +315,10 @@ class Builder
 
 }  // namespace
 
-World make_world(const Scene& scene, const Geometry& geometry)
+World make_world(const Scene& scene, const Geometry& geometry, const WindProjector& project_wind,
+                 GriddedWind* kept)
 {
-    return Builder(scene, geometry).build();
+    return Builder(scene, geometry, project_wind, kept).build();
 }
 
 }  // namespace spindrift::scene

@@ -57,4 +57,7 @@ struct Geometry
 };
 Geometry read_geometry(const Scene& scene);
 
+/// Largest channel of the radiance that any surface emits.
+double brightest_emission(const Geometry& geometry);
+
 }  // namespace spindrift::scene

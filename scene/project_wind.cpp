@@ -50,7 +50,8 @@ bool mostly_solid(const VoxelGrid& voxels, const Vec3d& low, const Vec3d& high)
 
 }  // namespace
 
-StaggeredWind wind_around_solids(const Wind& profile, Vec3f size_m, double cell_m, const VoxelGrid& voxels)
+StaggeredWind wind_around_solids(const Wind& profile, Vec3f size_m, double cell_m, const VoxelGrid& voxels,
+                                 const WindProjector& project)
 {
     const double ground = profile.ground_m;
     const Vec3d extent{size_m.x, size_m.y, size_m.z - ground};
@@ -77,16 +78,27 @@ StaggeredWind wind_around_solids(const Wind& profile, Vec3f size_m, double cell_
         std::fill_n(wind.v.begin() + static_cast<std::ptrdiff_t>(v_layer) * k, v_layer,
                     speed[k] * profile.to_y);
     }
-    if (voxels.nx > 0)
-        for (int z = 0; z < n.nz; ++z)
-            for (int y = 0; y < n.ny; ++y)
-                for (int x = 0; x < n.nx; ++x)
-                {
-                    const Vec3d low{x * wind.cell_m.x, y * wind.cell_m.y, ground + z * wind.cell_m.z};
-                    if (mostly_solid(voxels, low, low + wind.cell_m)) wind.solid[n.index(x, y, z)] = 1;
-                }
-    make_divergence_free(wind);
+    if (voxels.nx > 0) mark_solids(wind, {0, 0, ground}, voxels);
+    project(wind);
     return wind;
+}
+
+void mark_solids(StaggeredWind& wind, Vec3d low_m, const VoxelGrid& voxels)
+{
+    double bottom = low_m.z;
+    for (int z = 0; z < wind.size.nz; ++z)
+    {
+        const double top = bottom + wind.layer_m[z];
+        for (int y = 0; y < wind.size.ny; ++y)
+            for (int x = 0; x < wind.size.nx; ++x)
+            {
+                const double west = low_m.x + x * wind.cell_m.x, south = low_m.y + y * wind.cell_m.y;
+                if (mostly_solid(voxels, {west, south, bottom},
+                                 {west + wind.cell_m.x, south + wind.cell_m.y, top}))
+                    wind.solid[wind.size.index(x, y, z)] = 1;
+            }
+        bottom = top;
+    }
 }
 
 FlowField cell_means(const StaggeredWind& wind, Vec3d low_m)

@@ -9,7 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "core/phase.h"
+#include "core/tone.h"
 #include "core/vec.h"
+#include "core/visibility.h"
 #include "core/world.h"
 
 namespace spindrift::scene
@@ -32,12 +35,68 @@ struct DomainSettings
     OnLeave on_leave = OnLeave::respawn;
 };
 
+/// By what the extinction of the air is stated.
+enum class AirSource
+{
+    clear,  ///< flakes alone hide what lies behind them
+    visibility,
+    snowfall,       ///< rate and crystals of [snow]
+    concentration,  ///< snow in the air
+    particle_rate,  ///< the report's experiment
+    flakes,         ///< as much as the drawn flakes of the sky hide at full size
+};
+
+/// How the report's particles per second become a grey value.
+enum class ReportFit
+{
+    cover,   ///< one parameter, monotone
+    legacy,  ///< as printed, clamped
+};
+
+enum class FogLaw
+{
+    exponential,
+    legacy,  ///< the report's visibility - distance / 600 m, clamped
+};
+
+struct AirSettings
+{
+    AirSource source = AirSource::clear;
+    double visibility_m = 1000;
+    VisibilityContrast contrast = VisibilityContrast::five_percent;
+    double snow_g_m3 = 0.3;
+    double particles_per_s = 1e5;
+    ReportFit fit = ReportFit::cover;
+    FogLaw law = FogLaw::exponential;
+    double drift_visibility_m = std::numeric_limits<double>::infinity();  ///< of the drift alone, at its base
+    double drift_height_m = 1;  ///< over which the drift falls to 1/e
+    double drift_base_m = 0;    ///< world frame
+    bool airlight = true;       ///< lamps glow in the fog
+};
+
 enum class WindSource
 {
     calm,
     uniform,
     logarithmic,
-    file,  ///< QES-Winds windsWk and turbOut
+    file,   ///< QES-Winds windsWk and turbOut
+    solve,  ///< an approaching wind, zones round blocks, and the projection
+};
+
+/// How a wind that is solved for approaches.
+enum class InflowKind
+{
+    logarithmic,
+    power,
+    measured,
+};
+
+/// A measured wind at one height.
+struct WindLevel
+{
+    double height_m = 0;  ///< above the ground
+    double speed_m_s = 0;
+    double from_direction_deg = 270;
 };
 
 struct WindSettings
@@ -52,7 +111,17 @@ struct WindSettings
     double boundary_layer_m = 1000;
     bool turbulence = true;      ///< surface-layer closure, or the turbulence file
     bool around_solids = false;  ///< logarithmic: put on a grid and made divergence-free round the solids
-    double cell_m = 2;           ///< of that grid
+    double cell_m = 2;           ///< of that grid, and of the one that is solved on
+
+    // solve
+    InflowKind profile = InflowKind::logarithmic;
+    double exponent = 0.16;              ///< power
+    std::vector<WindLevel> levels;       ///< measured; ascending heights
+    bool zones = true;                   ///< recirculation, wakes and the like round blocks
+    double layer_m = 0;                  ///< thickness of the lowest layer; 0: cell_m
+    double layer_growth = 1;             ///< of a layer over the one below it
+    std::filesystem::path cache_folder;  ///< empty: nothing is kept
+
     std::filesystem::path winds_file, turbulence_file;  ///< source = file; turbulence_file may be empty
 };
 
@@ -122,8 +191,11 @@ struct Light
     Colour intensity;  ///< point, spot: radiant intensity in W/sr; directional: irradiance in W/m2; HDR
     double range_m = std::numeric_limits<double>::infinity();
     double inner_cone_deg = 20, outer_cone_deg = 30;  ///< half angles
-    double g = 0.77;      ///< Henyey-Greenstein asymmetry of flakes in this light, in (-1, 1)
-    std::string vehicle;  ///< not empty: position and direction are relative to it
+    PhaseKind phase = PhaseKind::henyey_greenstein;
+    double g = 0.77;          ///< asymmetry of flakes in this light, in (-1, 1)
+    double g_back = -0.3;     ///< double_lobe: of the second lobe
+    double back_share = 0.1;  ///< double_lobe: share of the light that it takes
+    std::string vehicle;      ///< not empty: position and direction are relative to it
 };
 
 struct SkySettings
@@ -159,10 +231,25 @@ enum class Blending
     opaque,    ///< plain points with depth, no sort
 };
 
+/// How flakes scatter light.
+enum class Scattering
+{
+    physical,
+    legacy,  ///< as the report prints it: the angle's sign turned round, ambient light once per lamp
+};
+
 enum class Sprite
 {
     crystal,  ///< Gaussian transparency inside a grown crystal shape
     point,    ///< plain opaque round point
+};
+
+/// How blended flakes are drawn; opaque points always by GL's rasteriser.
+enum class FlakePath
+{
+    automatic,  ///< raster on a GPU, tiles on software GL
+    raster,     ///< as points, by GL's rasteriser
+    tiles,      ///< by the processor, in tiles of the picture
 };
 
 struct RenderSettings
@@ -173,12 +260,46 @@ struct RenderSettings
     double warm_up_s = 0;  ///< simulated before the first frame
     Blending blending = Blending::over;
     Sprite sprite = Sprite::crystal;
+    Scattering scattering = Scattering::physical;
+    FlakePath flake_path = FlakePath::automatic;
     std::string sort = "auto";
     int depth_bits = 32;
     int sort_passes_per_frame = 8;  ///< steps of the sorts over frames
     double exposure = 1;
+    bool auto_exposure = false;  ///< `exposure` is then found from the picture
+    double grey = 0.18;          ///< what the log-average of the picture is shown as
+    double adaptation_s = 1;     ///< time constant of the automatic exposure
     double flake_opacity = 0.9;  ///< at the centre of a flake, 0..1
     double flake_scale = 1;      ///< drawn size over real size; light is kept by weight / scale^2
+};
+
+enum class BloomMethod
+{
+    gaussian,  ///< exact: separable, true weights, at full resolution
+    reduced,   ///< the same at an eighth of the resolution, or at a quarter or half for narrow ones
+    pyramid,   ///< 13 taps down, tent up
+    dual,      ///< dual filter
+    legacy,    ///< box of the exact one's taps
+};
+
+/// Light in multiples of white after the exposure.
+struct BloomSettings
+{
+    double weight = 0;  ///< share of the bright part that is spread
+    BloomMethod method = BloomMethod::reduced;
+    double threshold = 1;
+    double knee = 0.5;            ///< share of the threshold
+    double ceiling = 100;         ///< a pixel counts up to here
+    double sigma_px = 128.0 / 3;  ///< in a picture 720 px high; others scale it
+};
+
+struct DisplaySettings
+{
+    ToneCurve tone = ToneCurve::linear;
+    double white = 4;  ///< reinhard: luminance that becomes white; legacy: its largest luminance
+    bool dither = true;
+    double unit_cd_m2 = 0;  ///< luminance that one unit of light stands for; 0: not calibrated
+    double white_cd_m2 = 0, black_cd_m2 = 0;  ///< of the display
 };
 
 struct Scene
@@ -192,6 +313,7 @@ struct Scene
     std::uint32_t reorder_every_steps = 0;  ///< 0: never
     Snow snow;
     WindSettings wind;
+    AirSettings air;
     std::vector<EmitterSettings> emitters;
     GroundSettings ground;
     std::vector<BoxSettings> boxes;
@@ -202,6 +324,8 @@ struct Scene
     CameraSettings camera;
     std::vector<VehicleSettings> vehicles;
     RenderSettings render;
+    BloomSettings bloom;
+    DisplaySettings display;
 };
 
 /// What a command line may change of a scene before it is validated.
@@ -210,7 +334,7 @@ struct SceneOverrides
     std::optional<std::uint64_t> particles;  ///< capacity, and bursts and rates scaled with it
     std::optional<std::uint64_t> seed;
     std::optional<std::int64_t> reorder_every_steps;
-    std::optional<std::string> sort;
+    std::optional<std::string> sort, flake_path;
     std::optional<int> sort_passes_per_frame;
     std::optional<int> width_px, height_px, frames;
     std::optional<double> frames_per_s;

@@ -20,9 +20,11 @@ namespace
 std::string_view unit_of(std::string_view name)
 {
     constexpr std::pair<std::string_view, std::string_view> kUnits[] = {{"_w_sr_m2", "W/(sr m²)"},
+                                                                        {"_cd_m2", "cd/m²"},
                                                                         {"_w_sr", "W/sr"},
                                                                         {"_w_m2", "W/m²"},
                                                                         {"_mm_h", "mm/h"},
+                                                                        {"_g_m3", "g/m³"},
                                                                         {"_m_s", "m/s"},
                                                                         {"_per_s", "1/s"},
                                                                         {"_hz", "Hz"},
@@ -49,6 +51,12 @@ class SchemaWriter final : public Section
     bool number(const Key& key, const Range& range, double& value) override
     {
         return row(key, "number", allowed_numbers(range), plain(value));
+    }
+    bool number_or(const Key& key, const Range& range, std::string_view word, double& value,
+                   bool& is_word) override
+    {
+        return row(key, "number or text", fmt::format("{}, or \"{}\"", allowed_numbers(range), word),
+                   is_word ? quoted(word) : plain(value));
     }
     bool whole(const Key& key, const Range& range, std::uint64_t& value) override
     {

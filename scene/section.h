@@ -57,6 +57,9 @@ class Section
     virtual ~Section() = default;
 
     virtual bool number(const Key& key, const Range& range, double& value) = 0;
+    /// A number, or one word in its place: `is_word` says which, and the word leaves `value` as it was.
+    virtual bool number_or(const Key& key, const Range& range, std::string_view word, double& value,
+                           bool& is_word) = 0;
     virtual bool whole(const Key& key, const Range& range, std::uint64_t& value) = 0;
     virtual bool flag(const Key& key, bool& value) = 0;
     virtual bool text(const Key& key, std::string& value) = 0;

@@ -121,6 +121,10 @@ class UnknownKeyFinder final : public Section
     explicit UnknownKeyFinder(Place place) : place_(std::move(place)) {}
 
     bool number(const Key& key, const Range&, double&) override { return note(key); }
+    bool number_or(const Key& key, const Range&, std::string_view, double&, bool&) override
+    {
+        return note(key);
+    }
     bool whole(const Key& key, const Range&, std::uint64_t&) override { return note(key); }
     bool flag(const Key& key, bool&) override { return note(key); }
     bool text(const Key& key, std::string&) override { return note(key); }
@@ -198,6 +202,18 @@ class Reader final : public Section
         const toml::node* node = find(key, allowed);
         if (node) value = checked(key, range, *node, *node, allowed);
         return node;
+    }
+
+    bool number_or(const Key& key, const Range& range, std::string_view word, double& value,
+                   bool& is_word) override
+    {
+        const std::string allowed = fmt::format("use {}, or \"{}\"", allowed_numbers(range), word);
+        const toml::node* node = find(key, allowed);
+        if (!node) return false;
+        const auto* text = node->as_string();
+        is_word = text != nullptr && text->get() == word;
+        if (!is_word) value = checked(key, range, *node, *node, allowed);
+        return true;
     }
 
     bool whole(const Key& key, const Range& range, std::uint64_t& value) override

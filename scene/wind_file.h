@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
+#include "core/staggered_wind.h"
 #include "scene/flow_field.h"
-#include "scene/staggered_wind.h"
 
 namespace spindrift::scene
 {

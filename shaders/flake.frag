@@ -9,6 +9,7 @@ flat in vec4 glow;
 flat in vec4 lamp;
 flat in vec4 shape;
 flat in vec3 fade;
+flat in vec3 even;
 #elif defined(WEIGHTED)
 flat in float kept;
 #endif
@@ -73,7 +74,7 @@ void main()
     lit *= imposter(p, rho2);
 #endif
     float alpha = weighted(opacity) * soft_edge();
-    colour = vec4(min(ambient_far.rgb + lit, 6e4) * alpha, alpha);
+    colour = vec4(min(even + lit, 6e4) * alpha, alpha);
 #else
     float alpha = weighted(glow.a * profile(rho2));
 #ifdef WEIGHTED

@@ -4,6 +4,9 @@
 #include "frame.glsl"
 #include "flake_look.glsl"
 #include "lights.glsl"
+#ifdef AIR
+#include "airlight.glsl"
+#endif
 layout(std430, binding = 0) readonly buffer XArray { float x_m[]; };
 layout(std430, binding = 1) readonly buffer YArray { float y_m[]; };
 layout(std430, binding = 2) readonly buffer ZArray { float z_m[]; };
@@ -18,6 +21,7 @@ flat out vec4 glow;  // radiance (LARGE: of the lights alone), opacity at the ce
 flat out vec4 lamp;   // unit vector towards the lights (right, up, viewer), share of crystal and imposter
 flat out vec4 shape;  // cosine and sine of the angle, mip level, layer
 flat out vec3 fade;   // depth (m), 1 / length of the fade (1/m) or -1: .x is the share that is left; mean of the mask
+flat out vec3 even;   // radiance that the imposter does not shade
 #elif defined(WEIGHTED)
 flat out float kept;  // share of alpha that is left where the flake cuts into the scene
 #endif
@@ -35,8 +39,11 @@ vec3 scattered(vec3 p, vec3 to_eye, out vec3 towards)
     {
         vec3 to_light;
         vec3 e = irradiance(lights[i], p, to_light);
+#ifdef AIR
+        if (lights[i].place.w != 0.0) e *= reaching(lights[i].place.xyz, p);
+#endif
         float mu = clamp(-dot(to_light, to_eye), -1.0, 1.0);
-        sum += e * phase(lights[i].intensity.w, mu);
+        sum += e * phase(lights[i], mu);
         towards += to_light * dot(e, vec3(0.2126, 0.7152, 0.0722));
     }
     return sum;
@@ -63,6 +70,25 @@ bool hidden(vec4 clip, float drawn)
     vec2 tile = floor((centre - drawn - 0.5) * 0.125) + 1.0;
     vec4 farthest = textureGather(depth_tiles, tile / vec2(textureSize(depth_tiles, 0)));
     return clip.z < clip.w * min(min(farthest.x, farthest.y), min(farthest.z, farthest.w));
+}
+#endif
+
+#ifdef AIR
+// Light as it reaches the eye: dimmed by the air between, and with the glow of that air. Where light is only added, that
+// glow is in the picture already.
+void see_through_air(vec3 way, float distance_m, inout vec3 lit, inout vec3 ambient)
+{
+    if (volume_high.w != 0.0) return;
+    AirPath path = air_path(way);
+    float clear = clear_share(path, distance_m);
+    lit *= clear;
+    ambient *= clear;
+#ifndef ADDITIVE
+    ambient += even_light(way) * (1.0 - clear);
+#ifdef GLOW
+    ambient += lamp_glow(path, distance_m);
+#endif
+#endif
 }
 #endif
 
@@ -103,10 +129,17 @@ void main()
     vec3 towards;
     vec3 to_eye = (eye_time.xyz - p) * inversesqrt(dot(v, v));
     vec3 lit = scattered(p, to_eye, towards);
+    vec3 ambient = flake_ambient();
+#ifdef AIR
+    see_through_air(-to_eye, length(v), lit, ambient);
+#endif
 #ifdef OPAQUE
-    glow = vec4(min(ambient_far.rgb + lit, kLargestRadiance), 1.0);
+    glow = vec4(min(ambient + lit, kLargestRadiance), 1.0);
 #else
     float small = min(r / kSmallest, 1.0);
+#ifdef AIR
+    small *= sqrt(kept_of_tiny(2.0 * r));
+#endif
     float opacity = small * small * clamp((z - near) / (3.0 * near), 0.0, 1.0);
     float length_m = max(radius_m, 0.05);
     float mean = 1.0;
@@ -121,11 +154,12 @@ void main()
     float strength = length(towards);
     vec3 l = strength > 0.0 ? towards / strength : vec3(0.0);
     glow = vec4(lit, opacity);
+    even = ambient;
     lamp = vec4(dot(l, right_tan.xyz), dot(l, up_tan.xyz), -dot(l, forward_near.xyz), clamp((r - 3.0) / 3.0, 0.0, 1.0));
     shape = vec4(cos(angle), sin(angle), floor(max(log2(64.0 / drawn), 0.0) + 0.5), float(which));
     fade = r < 3.0 || has_scene == 0 ? vec3(soft_edge(clip, z, length_m), -1.0, mean) : vec3(z, 1.0 / length_m, mean);
 #else
-    glow = vec4(min(ambient_far.rgb + lit, kLargestRadiance), opacity * mean);
+    glow = vec4(min(ambient + lit, kLargestRadiance), opacity * mean);
 #ifdef WEIGHTED
     kept = soft_edge(clip, z, length_m);
 #else

@@ -7,14 +7,17 @@ layout(std140, binding = 0) uniform Frame
     vec4 up_tan;            // unit vector; of the vertical one
     vec4 forward_near;      // unit vector; m
     vec4 ambient_far;       // radiance; m
-    vec4 zenith_exposure;   // radiance; factor
+    vec4 zenith;            // radiance, 0
     vec4 horizon_focal;     // radiance; px
     vec4 look;              // mean melted diameter (mm), flake_scale, flake_opacity, weight / scale^2
     vec4 sprite;            // largest radius (px), guard band: width and height of the picture over the viewport's, guard (px)
-    uvec4 counts;           // lights, low word of the seed, crystal shapes, 0
+    uvec4 counts;           // lights, low word of the seed, crystal shapes, how many times flakes get the ambient light
     vec4 picture;           // width, height (px), 0, 0
     vec4 mask_means[4];     // of the crystal shapes
 };
+
+// Ambient light of flakes and fog.
+vec3 flake_ambient() { return ambient_far.rgb * float(counts.w); }
 
 // Depth grows from 0 at the far plane to 1 at the near plane, so that floats are fine where it is needed.
 float scene_z(float depth)

@@ -1,20 +1,30 @@
 // SPDX-License-Identifier: MIT
 // The lights that are on at the display time of the frame; gl/active_lights.h packs them.
+#ifdef AIR
+#include "air.glsl"
+#endif
 struct Light
 {
     vec4 place;      // point, spot: position (m), 1; directional: the unit vector towards the light, 0
     vec4 direction;  // the way it travels; factor of the spot term
-    vec4 intensity;  // W/sr or W/m2; asymmetry g
-    vec4 limits;     // offset of the spot term, 1 / range, 0, 0
+    vec4 intensity;  // W/sr or W/m2; asymmetry g (Schlick: k)
+    vec4 limits;     // offset of the spot term, 1 / range, share of the second lobe (-1: Schlick), its g
 };
 // Up to eight lights are read as uniforms by constant index, which software GL does an order faster; more as a buffer.
 #ifdef LIGHTS
-const uint kLightCount = LIGHTS;
+const uint kLightCount = uint(LIGHTS);
 layout(std140, binding = 1) uniform FewLights { Light lights[8]; };
 #else
 #define kLightCount counts.x
 layout(std430, binding = 5) readonly buffer Lights { Light lights[]; };
 #endif
+
+// The same light for places that are told from the eye.
+Light seen_from(Light light, vec3 eye)
+{
+    light.place.xyz -= eye * light.place.w;
+    return light;
+}
 
 const float kNearestLight = 0.05;  // m
 
@@ -22,21 +32,37 @@ const float kNearestLight = 0.05;  // m
 vec3 irradiance(Light light, vec3 p, out vec3 to_light)
 {
     vec3 way = light.place.xyz - p * light.place.w;
-    float d = max(length(way), 1e-6);
-    to_light = way / d;
-    float spot = clamp(-dot(to_light, light.direction.xyz) * light.direction.w + light.limits.x, 0.0, 1.0);
-    float u = d * light.limits.y;
-    float window = max(1.0 - u * u * u * u, 0.0);
-    float near = mix(1.0, max(d, kNearestLight), light.place.w);
-    return light.intensity.rgb * (spot * spot * window / (near * near));
+    float d2 = max(dot(way, way), 1e-12);
+    float per_m = inversesqrt(d2);
+    to_light = way * per_m;
+    float spot = clamp(light.limits.x - dot(to_light, light.direction.xyz) * light.direction.w, 0.0, 1.0);
+    float u2 = d2 * light.limits.y * light.limits.y;
+    float window = max(1.0 - u2 * u2, 0.0);
+    float near = light.place.w > 0.0 ? min(per_m, 1.0 / kNearestLight) : 1.0;
+    return light.intensity.rgb * (spot * spot * window * near * near);
 }
 
 // Henyey-Greenstein (Astrophys. J. 93, 1941) in the form that is stable near |g| = 1 for both signs, as core/phase.h has it;
 // mu = 1: straight on.
-float phase(float g, float mu)
+float henyey_greenstein(float g, float mu)
 {
     float size = abs(g);
     float rest = 1.0 - size;
     float d = max(rest * rest + 2.0 * size * (1.0 - (g < 0.0 ? -mu : mu)), 1e-10);
     return rest * (1.0 + size) / (12.566370614 * d * sqrt(d));
+}
+
+// Schlick's stand-in (Computer Graphics Forum 12, 1993).
+float schlick(float k, float mu)
+{
+    float away = 1.0 - k * mu;
+    return (1.0 - k * k) / (12.566370614 * away * away);
+}
+
+float phase(Light light, float mu)
+{
+    if (light.limits.z < 0.0) return schlick(light.intensity.w, mu);
+    float ahead = henyey_greenstein(light.intensity.w, mu);
+    if (light.limits.z == 0.0) return ahead;
+    return mix(ahead, henyey_greenstein(light.limits.w, mu), light.limits.z);
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "frame.glsl"
 in vec3 ray;
+flat in vec3 horizon;
+flat in vec3 rise;
 layout(location = 0) out vec4 colour;
 
 void main()
 {
-    float up = ray.z * inversesqrt(dot(ray, ray));
-    colour = vec4(mix(horizon_focal.rgb, zenith_exposure.rgb, sqrt(clamp(up, 0.0, 1.0))), 1.0);
+    float up = max(ray.z, 0.0) * inversesqrt(dot(ray, ray));
+    colour = vec4(horizon + rise * sqrt(up), 1.0);
 }

@@ -10,13 +10,13 @@ namespace
 {
 
 constexpr Digit kWholeKey{.shift = 32, .bits = 16};
-constexpr std::size_t kShortestChunk = 65536;  // a shorter one spends its time on its 65 536 counters
-constexpr std::size_t kMostChunks = 16;        // 256 KiB of counters each
+// A shorter chunk spends its time on its 65 536 counters, which are 256 KiB.
+constexpr ChunkLimits kChunks{.shortest = 65536, .per_thread = 1, .most = 16};
 
 std::uint64_t* sort(const SortJob& job)
 {
     if (job.n < 2) return job.pairs;
-    const Chunks chunks(job.n, kShortestChunk, kMostChunks);
+    const Chunks chunks(job.n, kChunks);
     const HistogramLease lease(chunks.count() * kWholeKey.values());
     count_digit(job.pairs, chunks, kWholeKey, lease.counters());
     counts_to_places(chunks, kWholeKey, lease.counters());

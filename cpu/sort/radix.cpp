@@ -9,7 +9,7 @@
 #include "cpu/sort/strategy.h"
 
 // Least significant digit first: each pass keeps the order that the passes before it made, so the whole is
-// stable. The choice of digits is measured in docs/decisions/003-radix-sort.md.
+// stable. The choice of digits is measured in docs/decisions/004-radix-sort.md.
 
 namespace spindrift::cpu::sorts
 {
@@ -18,8 +18,8 @@ namespace
 {
 
 constexpr int kKeyShift = 32;
-constexpr std::size_t kShortestChunk = 4096;
-constexpr std::size_t kMostChunks = 64;
+// Threads that write into one line of output wait for each other; shorter chunks share too many.
+constexpr ChunkLimits kChunks{.shortest = 65536, .per_thread = 4, .most = 64};
 
 /// The passes over the span of key bits that are set in `differing`: as few as the widest digit allows, of
 /// even width; at least one.
@@ -49,13 +49,11 @@ class Plan
     int count_ = 0;
 };
 
-// Wide digits save passes while their lines of output (one per value and thread) and the pages behind them
-// stay in the caches.
+// Wide digits save passes, unless the counters cost more than the pairs.
 int widest_digit_bits(std::size_t n)
 {
     constexpr std::size_t kFewPairs = 4096;
-    constexpr std::size_t kManyPairs = std::size_t{3} << 19;
-    return n < kFewPairs || n > kManyPairs ? 8 : 12;
+    return n < kFewPairs ? 8 : 12;
 }
 
 std::uint32_t differing_bits_of_some(const SortJob& job)
@@ -94,23 +92,19 @@ std::uint64_t* sort(const SortJob& job)
         insertion_sort(job.pairs, job.n);
         return job.pairs;
     }
-    const Chunks chunks(job.n, kShortestChunk, kMostChunks);
+    const Chunks chunks(job.n, kChunks);
     const int widest = widest_digit_bits(job.n);
     const HistogramLease lease(chunks.count() << widest);
 
-    // Bits in which no key differs need no pass. A few keys say whether leaving them out could save one; only
-    // then does the first count, slower for it, look at all keys.
+    // Bits in which no key differs need no pass. A few keys say whether looking at all of them could save
+    // one.
     const std::uint32_t all_bits = ~0U >> (32 - job.key_bits);
     Plan plan(all_bits, widest);
-    const Plan hoped_for(differing_bits_of_some(job), widest);
-    bool counted = false;
-    if (hoped_for.count() < plan.count())
+    if (Plan(differing_bits_of_some(job), widest).count() < plan.count())
     {
-        const Digit first = hoped_for[0];
-        const std::uint64_t differing = count_digit_and_compare(job.pairs, chunks, first, lease.counters());
-        if (differing >> kKeyShift == 0) return job.pairs;
-        plan = Plan(static_cast<std::uint32_t>(differing >> kKeyShift), widest);
-        counted = plan[0] == first;
+        const auto differing = static_cast<std::uint32_t>(differing_bits(job.pairs, chunks) >> kKeyShift);
+        if (differing == 0) return job.pairs;
+        plan = Plan(differing, widest);
     }
 
     std::uint64_t* from = job.pairs;
@@ -118,8 +112,7 @@ std::uint64_t* sort(const SortJob& job)
     for (std::size_t pass = 0; pass < plan.count(); ++pass)
     {
         const Digit digit = plan[pass];
-        if (!counted) count_digit(from, chunks, digit, lease.counters());
-        counted = false;
+        count_digit(from, chunks, digit, lease.counters());
         if (all_in_one_value(chunks, digit, lease.counters(), from[0], job.n)) continue;
         counts_to_places(chunks, digit, lease.counters());
         scatter_by_digit(from, to, chunks, digit, lease.counters());

@@ -37,7 +37,7 @@ TEST_F(Command, HelpNamesEverySubcommandAndGivesExamples)
 {
     const Finished help = run_command({"--help"});
     EXPECT_EQ(help.exit_code, 0);
-    for (const char* word : {"run", "explain", "sorts", "info", "scenes", "Examples:", "130"})
+    for (const char* word : {"run", "wind", "explain", "sorts", "info", "scenes", "Examples:", "130"})
         EXPECT_THAT(help.output, HasSubstr(word));
     EXPECT_EQ(help.error, "");
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <cstdio>
+#include <sstream>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -92,6 +94,80 @@ TEST_F(Drawing, ExactSortsGiveTheSamePicture)
     EXPECT_EQ(image::read_png(in_folder("radix.png")).rgb, image::read_png(in_folder("std.png")).rgb);
 }
 
+TEST_F(Drawing, LowRangeStandsOnTheLeft)
+{
+    const std::string bright = write("bright.toml", read(small_scene()) + R"(
+exposure = 2.5
+[bloom]
+weight = 0.4
+[display]
+tone = "reinhard"
+dither = false
+)");
+    const auto picture = [&](const std::string& name, std::vector<std::string> more)
+    {
+        more.insert(more.begin(), {"run", bright, "--headless", "--frames", "1", "--out", in_folder(name)});
+        const Finished run = run_command(more);
+        EXPECT_EQ(run.exit_code, 0) << run.error;
+        return image::read_png(in_folder(name));
+    };
+    const image::Image8 alone = picture("alone.png", {}), both = picture("both.png", {"--beside-ldr"});
+    ASSERT_EQ(both.width, 2 * 96);
+    std::size_t differing = 0;
+    for (std::size_t y = 0; y < 64; ++y)
+        for (std::size_t x = 0; x < 96 * 3; ++x)
+        {
+            ASSERT_EQ(both.rgb[y * 192 * 3 + 96 * 3 + x], alone.rgb[y * 96 * 3 + x]);
+            differing += both.rgb[y * 192 * 3 + x] != alone.rgb[y * 96 * 3 + x] ? 1 : 0;
+        }
+    EXPECT_GT(differing, 1000U);
+    const Finished exr =
+        run_command({"run", bright, "--headless", "--beside-ldr", "--out", in_folder("x.exr")});
+    EXPECT_EQ(exr.exit_code, 2);
+    EXPECT_THAT(exr.error,
+                testing::HasSubstr("--beside-ldr compares what is shown, not light; use .png or .mp4"));
+}
+
+TEST_F(Drawing, LogsLuminanceOfPixels)
+{
+    const std::string calibrated = write("calibrated.toml", read(small_scene()) + R"(
+[display]
+tone = "calibrated"
+unit_cd_m2 = 100
+white_cd_m2 = 400
+black_cd_m2 = 0.2
+)");
+    const auto run = [&](const std::string& scene, const std::string& pixel)
+    {
+        return run_command({"run", scene, "--headless", "--frames", "2", "--out", in_folder("x.png"),
+                            "--luminance", in_folder("l.csv"), "--pixel", pixel, "--pixel", "95,63"});
+    };
+    const Finished done = run(calibrated, "3,2");
+    ASSERT_EQ(done.exit_code, 0) << done.error;
+    std::istringstream table(read(in_folder("l.csv")));
+    std::string line;
+    std::getline(table, line);
+    EXPECT_EQ(line, "frame,time_s,x,y,scene_cd_m2,display_cd_m2");
+    int lines = 0;
+    for (; std::getline(table, line); ++lines)
+    {
+        int frame = -1, x = -1, y = -1;
+        double time_s = -1, sent = -1, shown = -1;
+        ASSERT_EQ(std::sscanf(line.c_str(), "%d,%lf,%d,%d,%lf,%lf", &frame, &time_s, &x, &y, &sent, &shown),
+                  6);
+        EXPECT_EQ(frame, lines / 2);
+        EXPECT_NEAR(time_s, frame * 0.05, 1e-6);
+        EXPECT_EQ(x, lines % 2 == 0 ? 3 : 95);
+        EXPECT_GT(sent, 10);
+        EXPECT_NEAR(shown, sent, 0.02 * sent) << "the display shows cd/m2 as they are";
+    }
+    EXPECT_EQ(lines, 4);
+    EXPECT_THAT(run(calibrated, "96,2").error,
+                testing::HasSubstr("--pixel 96,2 lies outside of the picture; use 0 to 95 and 0 to 63"));
+    EXPECT_THAT(run(calibrated, "a,2").error, testing::HasSubstr("a,2 is no pixel; use COLUMN,ROW"));
+    EXPECT_THAT(run(small_scene(), "3,2").error, testing::HasSubstr("is not calibrated"));
+}
+
 TEST_F(Drawing, InterruptLeavesWholeFiles)
 {
     Launch launch;
@@ -143,11 +219,23 @@ TEST_F(Drawing, SortsAlongACameraPathAreHeldAgainstThePictureInExactOrder)
         EXPECT_GT(row.at("pairs"), 1000);
         const double error = row.at("image_relative_l2");
         const bool passes = !row.at("passes_per_frame").is_null();
-        if (row.at("key_bits") == 32 && !passes && row.at("sort") != "none") EXPECT_EQ(error, 0);
+        if (row.at("key_bits") == 32 && !passes && row.at("sort") != "none")
+        {
+            EXPECT_EQ(error, 0);
+        }
         const double inversions = row.at("inversion_fraction");
-        if (passes || row.at("sort") == "none") EXPECT_GT(inversions, 1e-4);
-        if (row.at("sort") == "none") EXPECT_GT(error, 0) << "order shows in the picture";
-        if (inversions == 0) EXPECT_EQ(error, 0);
+        if (passes || row.at("sort") == "none")
+        {
+            EXPECT_GT(inversions, 1e-4);
+        }
+        if (row.at("sort") == "none")
+        {
+            EXPECT_GT(error, 0) << "order shows in the picture";
+        }
+        if (inversions == 0)
+        {
+            EXPECT_EQ(error, 0);
+        }
         EXPECT_LT(error, 0.5);
         EXPECT_GE(row.at("image_relative_l2_worst"), error);
     }
@@ -171,6 +259,20 @@ TEST_F(Drawing, PassesDrawWholeFrames)
     const json list = json::parse(read(in_folder("s.json"))).at("draw_list");
     EXPECT_EQ(list.at("sort"), "bitonic-passes");
     EXPECT_EQ(list.at("passes_per_frame"), 12);
+}
+
+TEST_F(Drawing, CalibratesOnTheBlackSheetAndRefusesOtherScenes)
+{
+    const Finished run = run_command({"calibrate", "--most", "500", "--frames", "1", "--csv",
+                                      in_folder("c.csv"), "--plot", in_folder("c.svg")});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    EXPECT_THAT(run.output, testing::HasSubstr("RMS residual"));
+    EXPECT_THAT(read(in_folder("c.csv")), testing::StartsWith("particles_per_s,grey,"));
+    EXPECT_THAT(read(in_folder("c.csv")), testing::HasSubstr("\n500,"));
+    EXPECT_THAT(read(in_folder("c.svg")), testing::EndsWith("</svg>\n"));
+    const Finished other = run_command({"calibrate", small_scene()});
+    EXPECT_EQ(other.exit_code, 2);
+    EXPECT_THAT(other.error, testing::HasSubstr("use a scene like sheet"));
 }
 
 }  // namespace

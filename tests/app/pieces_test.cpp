@@ -67,11 +67,11 @@ TEST(PlanLog, CountsRunsAndKeepsEachReasonOnce)
 {
     PlanLog log;
     gl::FramePlan plan;
-    plan.passes = {{"sort", true, "over-blending of 7 flakes", "", ""}};
+    plan.passes = {{"sort", true, "over-blending of 7 flakes", "", "", {}}};
     log.add(plan);
     plan.passes[0].reason = "over-blending of 19 flakes";
     log.add(plan);
-    plan.passes = {{"sort", false, "at rest", "", ""}};
+    plan.passes = {{"sort", false, "at rest", "", "", {}}};
     log.add(plan);
     ASSERT_EQ(log.passes().size(), 1U);
     EXPECT_EQ(log.passes()[0].ran, 2U);

@@ -52,14 +52,25 @@ TEST_F(SortsCommand, MeasuresEverySortOnMadeUpKeys)
     {
         SCOPED_TRACE(row.dump());
         EXPECT_EQ(row.at("frames"), 3);
-        if (row.at("sort") != "none") EXPECT_GT(row.at("median_ms"), 0);
+        if (row.at("sort") != "none")
+        {
+            EXPECT_GT(row.at("median_ms"), 0);
+        }
         EXPECT_GT(row.at("floor_ms"), 0);
         EXPECT_TRUE(row.at("image_relative_l2").is_null()) << "no scene, no picture";
         const bool passes = !row.at("passes_per_frame").is_null();
-        if (passes) EXPECT_EQ(row.at("passes_per_frame"), 4);
+        if (passes)
+        {
+            EXPECT_EQ(row.at("passes_per_frame"), 4);
+        }
         if (row.at("key_bits") == 32 && !passes && row.at("sort") != "none")
+        {
             EXPECT_EQ(row.at("inversion_fraction"), 0);
-        if (passes && row.at("input") == "random") EXPECT_GT(row.at("inversion_fraction"), 0.01);
+        }
+        if (passes && row.at("input") == "random")
+        {
+            EXPECT_GT(row.at("inversion_fraction"), 0.01);
+        }
         EXPECT_LT(row.at("inversion_fraction"), 0.6);
     }
 }

@@ -19,7 +19,7 @@ Lamp<double> bulb()
     Lamp<double> lamp;
     lamp.position_m = {0, 10, 0};
     lamp.intensity = {100, 50, 25};
-    lamp.g = 0.77;
+    lamp.phase.g = 0.77;
     return lamp;
 }
 
@@ -76,8 +76,10 @@ TEST(Scattered, ALampBehindTheFlakeOutshinesOneBeforeIt)
     const Lamp<double> lamp = bulb();
     const Vec3d flake{0, 5, 0};
     const auto light = lamp_light(lamp, flake);
-    const double seen_against = spindrift::scattered(light, lamp.g, Vec3d{0, -1, 0}).x;  // eye - flake - lamp
-    const double seen_along = spindrift::scattered(light, lamp.g, Vec3d{0, 1, 0}).x;  // lamp behind the eye
+    const double seen_against =
+        spindrift::scattered(light, lamp.phase, Vec3d{0, -1, 0}).x;  // eye - flake - lamp
+    const double seen_along =
+        spindrift::scattered(light, lamp.phase, Vec3d{0, 1, 0}).x;  // lamp behind the eye
     EXPECT_NEAR(seen_against, 100.0 / 25 * spindrift::henyey_greenstein(0.77, 1.0), 1e-12);
     EXPECT_NEAR(seen_along, 100.0 / 25 * spindrift::henyey_greenstein(0.77, -1.0), 1e-12);
     EXPECT_GT(seen_against, 100 * seen_along);
@@ -89,16 +91,19 @@ TEST(Scattered, FloatFollowsDouble)
     coarse.position_m = {3, 10, 4};
     coarse.intensity = {100, 50, 25};
     coarse.range_m = 40;
+    coarse.phase.g = 0.5;
     Lamp<double> fine;
     fine.position_m = {3, 10, 4};
     fine.intensity = {100, 50, 25};
     fine.range_m = 40;
+    fine.phase.g = 0.5;
     for (int i = 0; i < 100; ++i)
     {
         const double x = 0.3 * i - 15;
         const auto a =
-            spindrift::scattered(lamp_light(coarse, {static_cast<float>(x), 2, 1}), 0.5F, {0, -1, 0});
-        const auto b = spindrift::scattered(lamp_light(fine, {static_cast<float>(x), 2, 1}), 0.5, {0, -1, 0});
+            spindrift::scattered(lamp_light(coarse, {static_cast<float>(x), 2, 1}), coarse.phase, {0, -1, 0});
+        const auto b =
+            spindrift::scattered(lamp_light(fine, {static_cast<float>(x), 2, 1}), fine.phase, {0, -1, 0});
         EXPECT_NEAR(a.x, b.x, 2e-6 * b.x);
     }
 }

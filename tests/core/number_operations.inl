@@ -200,6 +200,8 @@ const spindrift_test::Operation kOperations[] = {
     OPERATION("exp2 moderate", number_bits(exp2(moderate(a)))),
     OPERATION("exp", number_bits(exp(x))),
     OPERATION("exp moderate", number_bits(exp(moderate(a)))),
+    OPERATION("atan", number_bits(atan(x))),
+    OPERATION("atan moderate", number_bits(atan(moderate(a)))),
     OPERATION("pow", number_bits(pow(abs(moderate(a)), moderate(b) * R(0.0625F)))),
     OPERATION("sin", sine_bits(x)),
     OPERATION("cos", cosine_bits(x)),

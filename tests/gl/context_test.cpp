@@ -35,7 +35,7 @@ TEST(Context, IsOpenGl45CoreWithoutDisplay)
 TEST(Program, ErrorNamesTheFile)
 {
     test_context();
-    constexpr std::array<std::string_view, 2> files{"tone.vert", "tone.frag"};
+    constexpr std::array<std::string_view, 2> files{"full_screen.vert", "tone.frag"};
     constexpr std::array<std::string_view, 1> broken{"vec4 nonsense"};
     try
     {
@@ -44,7 +44,7 @@ TEST(Program, ErrorNamesTheFile)
     }
     catch (const Error& error)
     {
-        EXPECT_NE(std::string(error.what()).find("tone."), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("full_screen."), std::string::npos) << error.what();
         EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "one line";
     }
     EXPECT_THROW(shader_source("nowhere.frag"), Error);

@@ -64,6 +64,29 @@ TEST_F(PlanTest, AdditiveAndOpaqueNeedNoSort)
     EXPECT_TRUE(plan().runs("flakes"));
 }
 
+TEST_F(PlanTest, SoftwareGlDrawsBlendedFlakesInTiles)
+{
+    const auto in_tiles = [&](GlKind gl)
+    {
+        const FramePlan p = plan_frame(scene, view, stats, 0, {}, gl);
+        EXPECT_NE(p.runs("tiles"), p.runs("flakes"));
+        EXPECT_FALSE(p.runs("tiles") && p.runs("fade"));
+        return p.runs("tiles");
+    };
+    EXPECT_TRUE(in_tiles(GlKind::software));
+    EXPECT_FALSE(in_tiles(GlKind::hardware));
+    EXPECT_FALSE(in_tiles(GlKind::unknown));
+    scene.render.flake_path = scene::FlakePath::raster;
+    EXPECT_FALSE(in_tiles(GlKind::software));
+    scene.render.flake_path = scene::FlakePath::tiles;
+    EXPECT_TRUE(in_tiles(GlKind::hardware));
+    EXPECT_NE(reason("tiles").find("the scene asks"), std::string::npos) << reason("tiles");
+    EXPECT_NE(reason("flakes").find("in tiles"), std::string::npos) << reason("flakes");
+    scene.render.blending = scene::Blending::opaque;
+    EXPECT_FALSE(in_tiles(GlKind::software)) << "opaque points need the depth buffer";
+    EXPECT_NE(reason("tiles").find("depth buffer"), std::string::npos) << reason("tiles");
+}
+
 TEST_F(PlanTest, RestNeedsNoNewSort)
 {
     stats.flakes_moved = false;
@@ -120,6 +143,39 @@ TEST_F(PlanTest, LampsOutOfRangeAreLeftOut)
     EXPECT_TRUE(plan().runs("lights")) << "directional lights have no range";
 }
 
+TEST_F(PlanTest, ClearAirNeedsNoFog)
+{
+    EXPECT_FALSE(plan().runs("fog"));
+    EXPECT_NE(reason("fog").find("clear"), std::string::npos);
+    EXPECT_FALSE(plan().runs("airlight"));
+    scene.air.source = scene::AirSource::visibility;
+    scene.air.visibility_m = 1e6;
+    EXPECT_FALSE(plan().runs("fog"));
+    EXPECT_NE(reason("fog").find("above 99.5 %"), std::string::npos) << reason("fog");
+    scene.air.visibility_m = 500;
+    EXPECT_TRUE(plan().runs("fog"));
+    EXPECT_NE(reason("fog").find("500 m (5 %)"), std::string::npos) << reason("fog");
+}
+
+TEST_F(PlanTest, OnlyLampsThatShineGlowInTheFog)
+{
+    scene.air.source = scene::AirSource::visibility;
+    scene.air.visibility_m = 100;
+    EXPECT_TRUE(plan().runs("airlight"));
+    scene.lights.front().on = false;
+    EXPECT_FALSE(plan().runs("airlight"));
+    scene.lights.front().on = true;
+    scene.lights.front().kind = scene::LightKind::directional;
+    EXPECT_FALSE(plan().runs("airlight")) << "the sun is in the fog's own light";
+    scene.lights.front().kind = scene::LightKind::point;
+    scene.air.airlight = false;
+    EXPECT_FALSE(plan().runs("airlight"));
+    EXPECT_TRUE(plan().runs("fog"));
+    scene.air.airlight = true;
+    scene.air.law = scene::FogLaw::legacy;
+    EXPECT_FALSE(plan().runs("airlight"));
+}
+
 TEST_F(PlanTest, EmptySceneHidesNothing)
 {
     scene.ground.kind = scene::GroundKind::none;
@@ -142,6 +198,75 @@ TEST_F(PlanTest, EveryPassHasAReasonAndReadsLikeAnExplainedQuery)
     EXPECT_NE(text.find(" - sort"), std::string::npos) << text;
 }
 
+TEST_F(PlanTest, CostsGrowWithThePictureAndTheFlakes)
+{
+    scene.bloom.weight = 0.1;
+    scene.render.auto_exposure = true;
+    view.width_px = 640;
+    view.height_px = 360;
+    const auto cost = [&](const std::string& name)
+    {
+        for (const PlannedPass& pass : plan().passes)
+            if (pass.name == name) return pass.cost;
+        return PassCost{};
+    };
+    for (const char* name : {"scene", "sky", "fade", "exposure", "bloom", "tone"})
+    {
+        view.width_px = 640;
+        const PassCost small = cost(name);
+        view.width_px = 1280;
+        EXPECT_NEAR(cost(name).megabytes / small.megabytes, 2, 1e-9) << name;
+        EXPECT_NEAR(cost(name).million_elements / small.million_elements, 2, 1e-9) << name;
+    }
+    for (const char* name : {"cull", "sort", "flakes"})
+    {
+        stats.counts.alive = 1000;
+        const PassCost few = cost(name);
+        stats.counts.alive = 4000;
+        EXPECT_NEAR(cost(name).megabytes / few.megabytes, 4, 1e-9) << name;
+    }
+    EXPECT_NEAR(cost("tone").megabytes, 1280 * 360 * 12e-6, 1e-9);
+    EXPECT_NE(to_text(plan()).find("In all about "), std::string::npos);
+    scene.bloom.weight = 0;
+    EXPECT_EQ(cost("bloom").megabytes, 0) << "what is left out costs nothing";
+}
+
+TEST_F(PlanTest, BloomMethodsCostWhatTheyTouch)
+{
+    scene.bloom.weight = 0.1;
+    view.width_px = 1280;
+    view.height_px = 720;
+    const auto million_texels = [&](scene::BloomMethod method)
+    {
+        scene.bloom.method = method;
+        for (const PlannedPass& pass : plan().passes)
+            if (pass.name == "bloom") return pass.cost.million_elements;
+        return 0.0;
+    };
+    EXPECT_NEAR(million_texels(scene::BloomMethod::gaussian), 1280 * 720 * (1 + 2 * 257) * 1e-6, 1e-6);
+    EXPECT_LT(million_texels(scene::BloomMethod::reduced), 3);
+    EXPECT_LT(million_texels(scene::BloomMethod::reduced), million_texels(scene::BloomMethod::dual));
+    EXPECT_LT(million_texels(scene::BloomMethod::dual), million_texels(scene::BloomMethod::pyramid));
+}
+
+TEST_F(PlanTest, TilesAreDevelopedWhereChannelsGoAlone)
+{
+    const auto in_tiles = [&]
+    { return plan_frame(scene, view, stats, 0, {}, GlKind::software).tone_in_tiles; };
+    EXPECT_TRUE(in_tiles());
+    EXPECT_FALSE(plan().tone_in_tiles) << "no tiles, no tone in them";
+    scene.display.tone = ToneCurve::legacy;
+    EXPECT_TRUE(in_tiles());
+    scene.display.tone = ToneCurve::neutral;
+    EXPECT_FALSE(in_tiles());
+    scene.display.tone = ToneCurve::linear;
+    scene.bloom.weight = 0.1;
+    EXPECT_FALSE(in_tiles());
+    scene.bloom.weight = 0;
+    scene.render.auto_exposure = true;
+    EXPECT_FALSE(in_tiles());
+}
+
 TEST(ActiveLights, LieInTheLocalFrame)
 {
     scene::Scene scene;
@@ -150,8 +275,8 @@ TEST(ActiveLights, LieInTheLocalFrame)
     lamp.position_m = {101, 203, 305};
     scene.lights.push_back(lamp);
     const ActiveLights active = active_lights(scene, {}, View{}, 0);
-    ASSERT_EQ(active.lights.size(), 1U);
-    EXPECT_EQ(active.lights[0].place, glm::vec4(1, 3, 5, 1));
+    ASSERT_EQ(active.lamps.size(), 1U);
+    EXPECT_EQ(pack(active.lamps[0]).place, glm::vec4(1, 3, 5, 1));
 }
 
 }  // namespace

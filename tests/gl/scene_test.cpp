@@ -52,6 +52,19 @@ TEST_F(SceneDrawing, BoxIsLitByAmbientAndLamp)
     EXPECT_NEAR(draw().pixel(48, 32)[0], 2 + 0.5 * (0.4 * 0.75 + 1.0), 5e-3);
 }
 
+TEST_F(SceneDrawing, ManyLampsShineLikeTheirSum)
+{
+    // Few lamps reach the fragments as varyings, up to eight as uniforms, more as a buffer.
+    view.eye = {3, 0, 0};
+    scene.sky.ambient = {0, 0, 0};
+    add_box({2, 5, -1}, {4, 6, 1}, grey(1.0F));
+    for (const int lamps : {1, 4, 5, 8, 9, 20})
+    {
+        scene.lights.assign(static_cast<std::size_t>(lamps), point_light({3, 3, 0}, 4 * kPi / lamps));
+        EXPECT_NEAR(draw().pixel(48, 32)[0], 1.0, 5e-3) << lamps << " lamps";
+    }
+}
+
 TEST_F(SceneDrawing, GroundReachesToTheFarPlane)
 {
     scene.ground.kind = scene::GroundKind::plane;

@@ -94,6 +94,7 @@ Stage::Stage()
     scene.domain.max_m = {100, 100, 100};
     scene.ground.kind = scene::GroundKind::none;
     scene.sky = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+    scene.display.dither = false;
     world.size_m = {100, 100, 100};
     world.has_ground = false;
     world.snow.rate_mm_h = 5;

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/backend.h"
+#include "cpu/tile_splatter.h"
 #include "gl/context.h"
 #include "gl/flake_buffers.h"
 #include "gl/frame_plan.h"
@@ -67,8 +68,9 @@ GlPicture draw_with_gl(SmallScene& small)
     stats.counts.emitted = stats.counts.alive = count;
     const gl::FramePlan plan =
         gl::plan_frame(small.scene, small.view, stats, small.time_s, small.geometry.model_lights);
+    const auto splatter = cpu::make_tile_splatter({});
     gl::Renderer renderer(small.scene, small.geometry, small.world, buffers, small.view.width_px,
-                          small.view.height_px);
+                          small.view.height_px, splatter.get());
     renderer.draw(plan, small.view, list, small.time_s);
     return {renderer.read_linear(), renderer.read_display(), gl::Context::debug_errors()};
 }

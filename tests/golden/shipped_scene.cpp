@@ -4,9 +4,12 @@
 #include <cmath>
 
 #include "cpu/cpu_backend.h"
+#include "cpu/tile_splatter.h"
+#include "cpu/wind_projection.h"
 #include "gl/context.h"
 #include "gl/frame_plan.h"
 #include "gl/renderer.h"
+#include "reference/development.h"
 #include "reference/reference.h"
 
 namespace spindrift::golden
@@ -18,10 +21,12 @@ Shown show(const Showing& showing)
     overrides.particles = showing.particles;
     overrides.width_px = showing.width_px;
     overrides.height_px = showing.height_px;
-    const scene::Scene scene =
+    scene::Scene scene =
         scene::read_scene(SPINDRIFT_SOURCE_DIR "/scenes/" + showing.name + ".toml", overrides);
+    scene.render.flake_path = showing.path;
+    scene.display.dither = false;
     const scene::Geometry geometry = scene::read_geometry(scene);
-    const World world = scene::make_world(scene, geometry);
+    const World world = scene::make_world(scene, geometry, cpu::project_wind());
     const gl::FlakeBuffers buffers(world.capacity);
     const auto backend = cpu::make_cpu_backend(world, buffers.flakes(), buffers.draw_list(), {});
     const auto steps = static_cast<int>(std::lround(showing.time_s / world.step_s));
@@ -32,16 +37,19 @@ Shown show(const Showing& showing)
         backend->prepare(view, {});  // always sorted: the picture does not depend on what the scene asks for
     gl::FrameStats stats;
     stats.counts = backend->counts();
-    gl::Renderer renderer(scene, geometry, world, buffers, view.width_px, view.height_px);
+    const auto splatter = cpu::make_tile_splatter({});
+    gl::Renderer renderer(scene, geometry, world, buffers, view.width_px, view.height_px, splatter.get());
     renderer.draw(gl::plan_frame(scene, view, stats, showing.time_s, geometry.model_lights), view, list,
                   showing.time_s);
-    return {renderer.read_linear(),
-            renderer.read_display(),
-            reference::render(scene, geometry, world, buffers.flakes(), backend->slots_used(), view,
-                              showing.time_s),
-            scene.render.exposure,
-            list.count,
-            gl::Context::debug_errors()};
+    Shown shown{renderer.read_linear(),
+                renderer.read_display(),
+                reference::render(scene, geometry, world, buffers.flakes(), backend->slots_used(), view,
+                                  showing.time_s),
+                {},
+                list.count,
+                gl::Context::debug_errors()};
+    shown.developed = reference::develop(shown.reference, scene);
+    return shown;
 }
 
 }  // namespace spindrift::golden

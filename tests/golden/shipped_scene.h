@@ -20,19 +20,22 @@ struct Showing
     std::uint64_t particles = 4000;
     int width_px = 320, height_px = 180;
     double time_s = 1;
+    /// Share of the pixels that may be off by more than 1e-2.
+    double most_share_off = 5e-4;
+    scene::FlakePath path = scene::FlakePath::raster;
 };
 
 inline void PrintTo(const Showing& showing, std::ostream* out)
 {
-    *out << showing.name;
+    *out << showing.name << (showing.path == scene::FlakePath::tiles ? " in tiles" : "");
 }
 
 struct Shown
 {
     image::Image linear;
     image::Image8 display;
-    image::Image reference;  ///< the same frame by the reference renderer
-    double exposure = 1;
+    image::Image reference;   ///< the same frame by the reference renderer
+    image::Image8 developed;  ///< what the reference makes of its own light
     std::uint64_t drawn = 0;
     std::string errors;  ///< what the driver complained of
 };

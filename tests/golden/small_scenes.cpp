@@ -153,4 +153,22 @@ void light_up(SmallScene& small)
     small.time_s = 1.6;  // the beacon is on: frac(1.6 * 2 + 0.25) = 0.45
 }
 
+void thicken(SmallScene& small)
+{
+    scene::EmitterSettings sky;
+    sky.emitter.shape = EmitterShape::sky;
+    sky.emitter.a = {20, 10, 6};
+    sky.emitter.b = {24, 20, 12};
+    sky.emitter.burst = 2000;
+    small.scene.emitters.push_back(sky);
+    small.scene.air.source = scene::AirSource::visibility;
+    small.scene.air.visibility_m = 45;
+    if (small.scene.lights.empty()) return;
+    small.scene.air.drift_visibility_m = 60;
+    small.scene.air.drift_height_m = 1.2;
+    small.scene.lights[0].phase = PhaseKind::double_lobe;
+    small.scene.lights[0].g = 0.85;
+    small.scene.lights[1].phase = PhaseKind::schlick;
+}
+
 }  // namespace spindrift::golden

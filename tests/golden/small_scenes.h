@@ -52,4 +52,7 @@ void enlarge(SmallScene& small, double enlargement);
 /// Adds a lamp of each kind, one of them behind the flakes and one flashing.
 void light_up(SmallScene& small);
 
+/// Fills the air: a sky in which the eye stands, drift, and lamps of all kinds of phase function.
+void thicken(SmallScene& small);
+
 }  // namespace spindrift::golden

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cpu/wind_projection.h"
 #include "scene/make_world.h"
 #include "scene/scene.h"
 #include "tests/parity/backends.h"
@@ -50,7 +51,7 @@ TEST_P(ShippedScene, EndsWithTheOraclesHash)
     scene::SceneOverrides overrides;
     if (scene::read_scene(file).capacity > 500) overrides.particles = 500;
     const scene::Scene scene = scene::read_scene(file, overrides);
-    const World world = scene::make_world(scene, scene::read_geometry(scene));
+    const World world = scene::make_world(scene, scene::read_geometry(scene), cpu::project_wind());
     const auto tested = GetParam().variant.make(world);
     const auto oracle = make_oracle(world);
     for (int i = 0; i < kSteps; ++i) tested->backend().step(), oracle->backend().step();

@@ -6,6 +6,7 @@
 #include <png.h>
 
 #include "core/error.h"
+#include "cpu/wind_projection.h"
 #include "scene/distance.h"
 #include "scene/make_world.h"
 #include "tests/scene/temporary_folder.h"
@@ -78,7 +79,7 @@ TEST(HeightField, IsVoxelised)
     const TemporaryFolder folder;
     Scene scene = scene_with(write_ramp(folder, PNG_FORMAT_LINEAR_Y));
     scene.ground.surface = {Contact::bounce, 0.5F};
-    const World world = make_world(scene, read_geometry(scene));
+    const World world = make_world(scene, read_geometry(scene), cpu::project_wind());
     const GridSize n{40, 30, 40};
     ASSERT_EQ(world.voxels.nx, 40);
     EXPECT_EQ(world.voxels.clearance[n.index(39, 5, 23)], 0);

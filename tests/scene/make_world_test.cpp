@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "cpu/wind_projection.h"
 #include "scene/distance.h"
 #include "tests/scene/temporary_folder.h"
 
@@ -30,7 +31,7 @@ Scene empty_scene(Vec3d min_m, Vec3d max_m)
 
 World world_of(const Scene& scene)
 {
-    return make_world(scene, read_geometry(scene));
+    return make_world(scene, read_geometry(scene), cpu::project_wind());
 }
 
 bool solid_at(const World& world, Vec3d p)

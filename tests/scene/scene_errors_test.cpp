@@ -89,8 +89,8 @@ void expect_errors(const std::vector<Case>& cases)
 TEST(SceneErrors, UnknownNamesTheNearest)
 {
     const std::string tables =
-        "use scene, domain, particles, snow, wind, vehicle, emitter, ground, box, model, voxels, light, sky, "
-        "camera or render";
+        "use scene, domain, particles, simulation, snow, wind, vehicle, emitter, ground, box, model, voxels, "
+        "air, light, sky, camera, render, bloom or display";
     expect_errors({
         {with("[scene]\nsede = 4\n"),
          "s.toml:10: scene.sede = 4 is not known (the nearest known one is scene.seed); use name, about, "
@@ -118,8 +118,9 @@ TEST(SceneErrors, WrongTypes)
         {with(wind + "[1]\n"), "s.toml:11: wind.speed_m_s = [1] is a list, not a number" + speed},
         {with("[wind]\nsource = 4\n"),
          "s.toml:10: wind.source = 4 is a number, not a text (still air, one velocity, a logarithmic "
-         "profile, or a wind "
-         "model's files); use calm, uniform, log or file"},
+         "profile, a wind model's files, or a wind that is solved for round what stands there); use calm, "
+         "uniform, "
+         "log, file or solve"},
         {with("[wind]\nsource = \"log\"\nspeed_m_s = 1\nturbulence = 1\n"),
          "s.toml:12: wind.turbulence = 1 is a number, not true or false (gusts: of the neutral surface "
          "layer, or of "
@@ -182,6 +183,42 @@ TEST(SceneErrors, NumbersOutOfReason)
          "s.toml:10: snow.weight = 0 is not above 0 (real flakes that one drawn flake stands for, wherever "
          "light is counted); "
          "use above 0, to 1000000000000"},
+        {with("[render]\nexposure = \"automatic\"\n"),
+         "s.toml:10: render.exposure = \"automatic\" is a text, not a number (factor on all light before the "
+         "tone curve; \"auto\": "
+         "what shows the picture's log-average as grey); use above 0, to 1000000, or \"auto\""},
+        {with("[render]\nexposure = 0\n"),
+         "s.toml:10: render.exposure = 0 is not above 0 (factor on all light before the tone curve; "
+         "\"auto\": "
+         "what shows the picture's log-average as grey); use above 0, to 1000000, or \"auto\""},
+        {with("[render]\ngrey = 0.2\n"),
+         "s.toml:10: render.grey = 0.2 has no effect here (it counts only with exposure = \"auto\"); remove "
+         "it, "
+         "or make that so"},
+        {with("[bloom]\nthreshold = 1\n"),
+         "s.toml:10: bloom.threshold = 1 has no effect here (it counts only with weight above 0); remove it, "
+         "or "
+         "make that so"},
+        {with("[bloom]\nweight = 0.1\nceiling = 1\n"),
+         "s.toml:11: bloom.ceiling = 1 is not above threshold = 1 (nothing would be bright); use more than "
+         "threshold"},
+        {with("[bloom]\nweight = 0.1\nmethod = \"pyramids\"\n"),
+         "s.toml:11: bloom.method = \"pyramids\" is not among the choices (nearest: pyramid); use gaussian, "
+         "reduced, pyramid, dual or legacy"},
+        {with("[display]\ntone = \"calibrated\"\n"),
+         "s.toml:10: display.tone = \"calibrated\" has no calibration (no luminance is known); give "
+         "unit_cd_m2 "
+         "and white_cd_m2"},
+        {with("[display]\nunit_cd_m2 = 100\n"),
+         "s.toml:9: display.white_cd_m2 is missing (luminance of the display's white, as measured); use "
+         "above "
+         "0, to 1000000"},
+        {with("[render]\nexposure = 2\n[display]\ntone = \"calibrated\"\nunit_cd_m2 = 1\nwhite_cd_m2 = 9\n"),
+         "s.toml:12: display.tone = \"calibrated\" would not show cd/m2 as they are with a render.exposure "
+         "other than 1; take render.exposure away"},
+        {with("[render]\nexposure = \"auto\"\n[display]\ntone = \"legacy\"\n"),
+         "s.toml:12: display.tone = \"legacy\" has no gain without a number for render.exposure; set "
+         "render.exposure"},
         {with("[render]\nframes = 0\n"),
          "s.toml:10: render.frames = 0 is below 1 (to draw without a window; also --frames); use a whole "
          "number, 1 to 10000000"},
@@ -404,7 +441,7 @@ TEST(SceneErrors, ChoicesNameTheNearest)
              kSorts},
         {with("[render]\nsort_passes_per_frame = 0\n"),
          "s.toml:10: render.sort_passes_per_frame = 0 is below 1 (steps of bitonic-passes and "
-         "odd-even-passes; also --sort-passes); use 1 to 4096"},
+         "odd-even-passes; also --sort-passes); use a whole number, 1 to 4096"},
         {with("[snow]\ncrystal = \"dendrite\"\n"),
          "s.toml:10: snow.crystal = \"dendrite\" is not among the choices (nearest: dendrites); use "
          "dendrites, plates, rimed or "
@@ -418,13 +455,13 @@ TEST(SceneErrors, Contradictions)
 {
     expect_errors({
         {with("[wind]\nsource = \"log\"\nspeed_m_s = 3\nfriction_velocity_m_s = 0.3\n"),
-         "s.toml:11: wind.speed_m_s = 3 has no effect here (it counts only with source = \"uniform\", or "
-         "\"log\" without "
-         "friction_velocity_m_s); remove it, or make that so"},
+         "s.toml:11: wind.speed_m_s = 3 has no effect here (it counts only with source = \"uniform\", source "
+         "or profile = \"log\" without friction_velocity_m_s, or profile = \"power\"); remove it, or make "
+         "that so"},
         {with("[wind]\nspeed_m_s = 3\n"),
-         "s.toml:10: wind.speed_m_s = 3 has no effect here (it counts only with source = \"uniform\", or "
-         "\"log\" without "
-         "friction_velocity_m_s); remove it, or make that so"},
+         "s.toml:10: wind.speed_m_s = 3 has no effect here (it counts only with source = \"uniform\", source "
+         "or profile = \"log\" without friction_velocity_m_s, or profile = \"power\"); remove it, or make "
+         "that so"},
         {with("[wind]\nsource = \"log\"\nspeed_m_s = 3\nreference_height_m = 1\nroughness_m = 2\n"),
          "s.toml:12: wind.reference_height_m = 1 is not above roughness_m (the profile is 0 there); use a "
          "larger height or a "

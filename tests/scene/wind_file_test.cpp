@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/philox.h"
+#include "cpu/wind_projection.h"
 #include "tests/scene/temporary_folder.h"
 
 namespace spindrift::scene
@@ -276,7 +277,7 @@ TEST(RealWindFile, IsFreeOfDivergenceAfterwards)
         GTEST_SKIP() << "no qes/TwoBuildings_windsWk.nc: set SPINDRIFT_TEST_DATA to a folder that holds it";
     WindFile file = read_wind_file(winds, {});
     const Vec3f before = file.wind.centre(60, 22, 20);
-    const Projection done = make_divergence_free(file.wind);
+    const Projection done = cpu::make_divergence_free(file.wind);
     EXPECT_GT(done.before_per_s, 0.1) << "the file's own";
     EXPECT_LT(done.after_per_s, 2e-6 * 10 / 4);
     const Vec3f after = file.wind.centre(60, 22, 20);
