@@ -43,6 +43,10 @@ FrameDrawer::FrameDrawer(const scene::Scene& scene, const scene::Geometry& geome
       renderer_(scene, geometry, world, *simulator.memory().drawn_from(), scene.render.width_px,
                 scene.render.height_px, splatter_.get())
 {
+    if (gl_ == gl::GlKind::out_of_reach && scene.render.flake_path == scene::FlakePath::tiles)
+        throw Error(
+            "render.flake_path = \"tiles\": the processor blends tiles, and cannot read flakes that CUDA "
+            "writes; use \"auto\" or \"raster\", or --backend cpu");
 }
 
 void FrameDrawer::set_sort(const std::string& strategy)

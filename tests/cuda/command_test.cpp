@@ -83,6 +83,19 @@ TEST_F(CudaCommand, DrawsTheProcessorsPictureOnBothWaysToGl)
     EXPECT_THAT(copied.stats.at("flake_memory").get<std::string>(), HasSubstr("page-locked"));
 }
 
+TEST_F(CudaCommand, RefusesTilesWhichTheProcessorWouldHaveToBlend)
+{
+    for (const char* interop : {"on", "off"})
+    {
+        const Finished run =
+            run_command({"run", small_scene(), "--headless", "--frames", "1", "--out", in_folder("x.png"),
+                         "--backend", "cuda", "--interop", interop, "--flake-path", "tiles"});
+        EXPECT_EQ(run.exit_code, 2) << interop;
+        EXPECT_THAT(run.error, AllOf(HasSubstr("flake_path"), HasSubstr("raster"))) << interop;
+        EXPECT_EQ(std::count(run.error.begin(), run.error.end(), '\n'), 1);
+    }
+}
+
 TEST_F(CudaCommand, InfoNamesTheDeviceAndTheWayToGl)
 {
     const Finished run = run_command({"info"});

@@ -74,6 +74,7 @@ TEST_F(PlanTest, SoftwareGlDrawsBlendedFlakesInTiles)
         return p.runs("tiles");
     };
     EXPECT_TRUE(in_tiles(GlKind::software));
+    EXPECT_FALSE(in_tiles(GlKind::out_of_reach)) << "the processor cannot read the flakes";
     EXPECT_FALSE(in_tiles(GlKind::hardware));
     EXPECT_FALSE(in_tiles(GlKind::unknown));
     scene.render.flake_path = scene::FlakePath::raster;
