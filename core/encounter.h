@@ -126,6 +126,7 @@ struct EncounterResolver
     std::uint32_t step;
     std::uint32_t substep;
     bool turbulent;
+    bool inertial;  ///< Encounter::slip is the whole velocity
 
     /// A flake that is still under way after so many borders in one sub-step stays where the last one left
     /// it.
@@ -137,7 +138,7 @@ struct EncounterResolver
     SPINDRIFT_HD void operator()(Encounter& f, Tally& tally) const
     {
         const Region& region = around.regions[f.emitter()];
-        Vec3f velocity = air_velocity(f) + f.slip;
+        Vec3f velocity = inertial ? f.slip : air_velocity(f) + f.slip;
         bool bounced = false;
         VoxelWalker<float> walk(around.solids);
         for (int borders = 0; borders < kMostBorders; ++borders)
@@ -157,7 +158,7 @@ struct EncounterResolver
             if (border.axis < 0) break;
             if (!cross(f, region, border, tally)) return;
         }
-        if (bounced) f.slip = velocity - air_velocity(f);
+        if (bounced) f.slip = inertial ? velocity : velocity - air_velocity(f);
         if (region.sky) fold(f, region, tally);
     }
 
@@ -178,7 +179,8 @@ struct EncounterResolver
         return v;
     }
 
-    SPINDRIFT_HD static Border next_border(const Encounter& f, const Region& region)
+    /// Ground at the lower end of the region, or above it, stops flakes before that border does.
+    SPINDRIFT_HD Border next_border(const Encounter& f, const Region& region) const
     {
         Border border;
         for (int axis = 0; axis < 3; ++axis)
@@ -189,6 +191,7 @@ struct EncounterResolver
             const float upper = detail::component(region.upper, axis);
             const bool above = x + path >= upper;
             if (!above && x + path >= lower) continue;
+            if (!above && axis == 2 && around.solids.has_ground && around.solids.ground_m >= lower) continue;
             const float share = min(max(((above ? upper : lower) - x) / path, 0.0F), 1.0F);
             if (border.axis < 0 || share < border.share) border = {share, axis, above};
         }
@@ -199,7 +202,7 @@ struct EncounterResolver
     SPINDRIFT_HD static Border border_after_bounce(const Encounter& f, const Region& region,
                                                    const Border& planned, const WalkResult<float>& walked)
     {
-        if (planned.axis >= 0 && (walked.mirrored >> planned.axis & 1U) == 0) return planned;
+        if (planned.axis >= 0 && (walked.turned >> planned.axis & 1U) == 0) return planned;
         Border border;
         for (int axis = 0; axis < 3; ++axis)
         {
