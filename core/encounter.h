@@ -178,7 +178,8 @@ struct EncounterResolver
         return v;
     }
 
-    SPINDRIFT_HD static Border next_border(const Encounter& f, const Region& region)
+    /// Ground at the lower end of the region, or above it, stops flakes before that border does.
+    SPINDRIFT_HD Border next_border(const Encounter& f, const Region& region) const
     {
         Border border;
         for (int axis = 0; axis < 3; ++axis)
@@ -189,6 +190,7 @@ struct EncounterResolver
             const float upper = detail::component(region.upper, axis);
             const bool above = x + path >= upper;
             if (!above && x + path >= lower) continue;
+            if (!above && axis == 2 && around.solids.has_ground && around.solids.ground_m >= lower) continue;
             const float share = min(max(((above ? upper : lower) - x) / path, 0.0F), 1.0F);
             if (border.axis < 0 || share < border.share) border = {share, axis, above};
         }
