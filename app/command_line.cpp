@@ -469,6 +469,24 @@ void add_validate(CLI::App& app, ValidateOptions& options)
     command.add_flag("--json", options.json, "As JSON");
 }
 
+void add_report(CLI::App& app, ReportOptions& options)
+{
+    CLI::App& command = *app.add_subcommand(
+        "report",
+        "Measure time against error of advection and of the wind's solver: one HTML page with curves");
+    command.add_option("-o,--out", options.out, "The page; it refers to nothing outside itself")
+        ->required()
+        ->type_name("FILE");
+    command.add_option("--particles", options.particles, "Flakes of each run")
+        ->type_name("N")
+        ->check(CLI::Range(100, 10'000'000))
+        ->capture_default_str();
+    command.add_option("--cells", options.most_cells, "Solver: leave out grids of more cells along an edge")
+        ->type_name("N")
+        ->check(CLI::Range(16, 96))
+        ->capture_default_str();
+}
+
 }  // namespace
 
 int run_command_line(int argc, char** argv)
@@ -490,6 +508,8 @@ int run_command_line(int argc, char** argv)
     WindOptions wind_options;
     add_wind(app, wind_options);
     add_calibrate(app, calibrate_options);
+    ReportOptions report_options;
+    add_report(app, report_options);
     ValidateOptions validate_options;
     add_validate(app, validate_options);
     app.add_subcommand("info", "Backend, processor, GL renderer and libraries of this build and machine");
@@ -509,6 +529,7 @@ int run_command_line(int argc, char** argv)
     if (app.got_subcommand("wind")) return wind(wind_options);
     if (app.got_subcommand("calibrate")) return calibrate(calibrate_options);
     if (app.got_subcommand("validate")) return validate(validate_options);
+    if (app.got_subcommand("report")) return report(report_options);
     if (app.got_subcommand("info")) return info();
     return list_scenes();
 }

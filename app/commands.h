@@ -13,6 +13,7 @@ int explain(const ExplainOptions& options);
 int wind(const WindOptions& options);
 int calibrate(const CalibrateOptions& options);
 int validate(const ValidateOptions& options);
+int report(const ReportOptions& options);
 int info();
 int list_scenes();
 int study_sorts(const SortsOptions& options);

@@ -104,4 +104,12 @@ struct ValidateOptions
     bool json = false;
 };
 
+/// What `spindrift report` was asked for.
+struct ReportOptions
+{
+    std::filesystem::path out;
+    std::uint64_t particles = 20000;
+    int most_cells = 96;  ///< along an edge of the solver's grids
+};
+
 }  // namespace spindrift::app
