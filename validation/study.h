@@ -19,7 +19,6 @@ struct AdvectionSetting
     std::string precision = "float";     ///< of the field: float, half
     std::string sampling = "trilinear";  ///< or nearest
     std::string code = "one-by-one";     ///< one flake at a time, as all rivals; packs: the backend's widest
-    int reorder_every_steps = 0;
     double dt_s = 0.1;
     bool is_default = false;  ///< what a scene gets that says nothing
 
@@ -65,8 +64,11 @@ struct SolverSetting
 std::vector<SolverSetting> solver_sweep(int most_cells);
 SolverPoint measure_solver(const SolverSetting& setting, int threads);
 
-/// Marks the points that no other beats: none is both faster and more accurate by more than chance.
+/// Marks the points that no other beats. To beat a point is to be faster, and more accurate by more than
+/// chance; or faster, not less accurate beyond chance, with steps that are no longer: a step is also how
+/// often places are known.
 void mark_frontier(std::vector<AdvectionPoint>& points);
+/// Nobody is both faster and more accurate.
 void mark_frontier(std::vector<SolverPoint>& points);
 
 /// The longest time step at which ours is no less accurate, beyond chance, than Bailey's implicit step at a
