@@ -26,7 +26,7 @@ namespace
 
 constexpr const char* kAbout =
     "Simulates and draws blowing snow.\n"
-    "Exit codes: 0 done, 1 internal error, 2 bad input, 130 interrupted (files are whole).";
+    "Exit codes: 0 done, 1 internal error or failed check, 2 bad input, 130 interrupted (files are whole).";
 
 constexpr const char* kExamples = R"(
 Examples:
@@ -36,6 +36,7 @@ Examples:
   spindrift run two-blocks --wind F_windsWk.nc --turbulence F_turbOut.nc
   spindrift wind town -o wind.nc                             solve for its wind, for ParaView, xarray and QES-Plume
   spindrift explain town                                     what a frame does and why
+  spindrift validate --case gaussian-plume,taylor            measured beside what is known
   spindrift sorts --scene town                               which sort suits this machine and scene
   spindrift run plow --headless --beside-ldr --out plow.png  low beside high dynamic range
 )";
@@ -438,6 +439,54 @@ void add_calibrate(CLI::App& app, CalibrateOptions& options)
     command.add_option("--seed", options.overrides.seed, "Seed of every random number")->type_name("X");
 }
 
+void add_validate(CLI::App& app, ValidateOptions& options)
+{
+    CLI::App& command =
+        *app.add_subcommand("validate", "Run the cases whose truth is known; exit code 1 if a check fails");
+    command.add_option("--case", options.cases, "Only these cases; all unless given. May be repeated")
+        ->delimiter(',')
+        ->type_name("C");
+    command
+        .add_option("--particles", options.particles, "Flakes of each run; by default each case has its own")
+        ->type_name("N")
+        ->check(CLI::Range(100, 100'000'000));
+    command.add_option("--dt", options.dt_s, "Time steps in s; by default each case has its own")
+        ->delimiter(',')
+        ->type_name("S,...")
+        ->check(CLI::Range(1e-4, 10.0));
+    command.add_option("--seed", options.seed, "Seed of every random number")
+        ->type_name("X")
+        ->capture_default_str();
+    command.add_option("--threads", options.threads, "0: one per core")
+        ->type_name("T")
+        ->check(CLI::Range(0, 1024));
+    command
+        .add_option("--data", options.data,
+                    "Folder of the field data (prairie_grass_neutral_arcs.csv); by default that of "
+                    "SPINDRIFT_TEST_DATA")
+        ->type_name("FOLDER")
+        ->check(CLI::ExistingDirectory);
+    command.add_flag("--json", options.json, "As JSON");
+}
+
+void add_report(CLI::App& app, ReportOptions& options)
+{
+    CLI::App& command = *app.add_subcommand(
+        "report",
+        "Measure time against error of advection and of the wind's solver: one HTML page with curves");
+    command.add_option("-o,--out", options.out, "The page; it refers to nothing outside itself")
+        ->required()
+        ->type_name("FILE");
+    command.add_option("--particles", options.particles, "Flakes of each run")
+        ->type_name("N")
+        ->check(CLI::Range(100, 10'000'000))
+        ->capture_default_str();
+    command.add_option("--cells", options.most_cells, "Solver: leave out grids of more cells along an edge")
+        ->type_name("N")
+        ->check(CLI::Range(16, 96))
+        ->capture_default_str();
+}
+
 }  // namespace
 
 int run_command_line(int argc, char** argv)
@@ -459,6 +508,10 @@ int run_command_line(int argc, char** argv)
     WindOptions wind_options;
     add_wind(app, wind_options);
     add_calibrate(app, calibrate_options);
+    ReportOptions report_options;
+    add_report(app, report_options);
+    ValidateOptions validate_options;
+    add_validate(app, validate_options);
     app.add_subcommand("info", "Backend, processor, GL renderer and libraries of this build and machine");
     app.add_subcommand("scenes", "List the shipped scenes");
     try
@@ -475,6 +528,8 @@ int run_command_line(int argc, char** argv)
     if (app.got_subcommand("sorts")) return study_sorts(sorts_options);
     if (app.got_subcommand("wind")) return wind(wind_options);
     if (app.got_subcommand("calibrate")) return calibrate(calibrate_options);
+    if (app.got_subcommand("validate")) return validate(validate_options);
+    if (app.got_subcommand("report")) return report(report_options);
     if (app.got_subcommand("info")) return info();
     return list_scenes();
 }

@@ -12,6 +12,8 @@ int run(const RunOptions& options);
 int explain(const ExplainOptions& options);
 int wind(const WindOptions& options);
 int calibrate(const CalibrateOptions& options);
+int validate(const ValidateOptions& options);
+int report(const ReportOptions& options);
 int info();
 int list_scenes();
 int study_sorts(const SortsOptions& options);

@@ -92,4 +92,24 @@ struct WindOptions
     bool relax = false;  ///< by red-black over-relaxation instead of multigrid
 };
 
+/// What `spindrift validate` was asked for.
+struct ValidateOptions
+{
+    std::vector<std::string> cases;          ///< empty: all
+    std::optional<std::uint64_t> particles;  ///< these two: unless given, each case has its own
+    std::vector<double> dt_s;
+    std::uint64_t seed = 1;
+    int threads = 0;             ///< 0: one per core
+    std::filesystem::path data;  ///< empty: what SPINDRIFT_TEST_DATA names, if anything
+    bool json = false;
+};
+
+/// What `spindrift report` was asked for.
+struct ReportOptions
+{
+    std::filesystem::path out;
+    std::uint64_t particles = 20000;
+    int most_cells = 96;  ///< along an edge of the solver's grids
+};
+
 }  // namespace spindrift::app

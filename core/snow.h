@@ -191,6 +191,7 @@ struct FallSpeed
     float spread_m_s = 0;
     std::int32_t first_drift = 256;  ///< number of the first emitter of grains; 256: there is none
     GrainSpeed grains;
+    float least_m_s = static_cast<float>(kLeastFallSpeed_m_s);
 
     FallSpeed() = default;
     SPINDRIFT_HD FallSpeed(const Snow& snow, std::uint64_t run_seed)
@@ -201,6 +202,9 @@ struct FallSpeed
           power(static_cast<float>(fall_law(snow.crystal).power)),
           spread_m_s(snow.fall_speed_spread_m_s)
     {
+        if (!(snow.fall_speed_m_s >= 0)) return;
+        factor = snow.fall_speed_m_s, power = 0;
+        least_m_s = min(least_m_s, snow.fall_speed_m_s);
     }
 
     /// Of a flake with this state (core/flake.h): a grain of drift, or a flake.
@@ -214,8 +218,8 @@ struct FallSpeed
         return select(emitter < IntOf<R>(first_drift), flake, grain);
     }
 
-    /// m/s, downwards, at least 0.05. The diameter stays a logarithm: D = 2^d, d = (3 log2 D_m - log2 0.17)
-    /// / 2.
+    /// m/s, downwards, at least 0.05 unless all are to fall more slowly. The diameter stays a logarithm: D =
+    /// 2^d, d = (3 log2 D_m - log2 0.17) / 2.
     template <class R>
     SPINDRIFT_HD R at(UIntOf<R> id) const
     {
@@ -225,7 +229,7 @@ struct FallSpeed
         const R inside = clamp(d, number<R>(-2.32192809488736), number<R>(4.32192809488736));
         const R speed = number<R>(factor) * exp2(number<R>(power) * inside);
         const R deviation = trait_deviation<R>(trait_hash(seed, id, Trait::fall_speed));
-        return max(fma(number<R>(spread_m_s), deviation, speed), number<R>(kLeastFallSpeed_m_s));
+        return max(fma(number<R>(spread_m_s), deviation, speed), number<R>(least_m_s));
     }
 };
 

@@ -57,6 +57,8 @@ SPINDRIFT_HD R concentration_of_snowfall(const R& rate_mm_h, const R& speed_m_s)
 /// = sqrt(D_m³ / 0.17) gives a 0.17^(-b/2) Lambda^(-1.5 b) Gamma(4 + 1.5 b) / Gamma(4). m/s.
 SPINDRIFT_HD double mean_fall_speed(const Snow& snow)
 {
+    if (snow.fall_speed_m_s >= 0)
+        return max(static_cast<double>(snow.fall_speed_m_s), kLeastFallSpeed_m_s);  // no endless extinction
     const FallLaw law = fall_law(snow.crystal);
     // Gamma(4 + 1.5 b) / Gamma(4) in the order of Crystal; tests/core/visibility_test.cpp computes them
     constexpr double kGammas[] = {1.3626943694883387, 2.278065383637709, 1.9252115490837776,

@@ -75,6 +75,7 @@ struct Snow
     SizeSpectrum spectrum = SizeSpectrum::gunn_marshall;
     float rate_mm_h = 1.0F;              ///< water equivalent
     float fall_speed_spread_m_s = 0.1F;  ///< standard deviation between flakes of one size
+    float fall_speed_m_s = -1;           ///< of every size; 0: a tracer; negative: by crystal and size
     float weight =
         1.0F;  ///< real flakes that one drawn flake stands for; > 0; used wherever light is counted
     bool inertia = false;  ///< velocities follow the air within v_t / g instead of at once

@@ -90,8 +90,8 @@ inline std::uint64_t world_hash(const World& w)
     detail::WorldHasher h;
     h.add(w.size_m);
     h.all(w.on_leave, w.step_s, w.seed, w.capacity);
-    h.all(w.snow.crystal, w.snow.spectrum, w.snow.rate_mm_h, w.snow.fall_speed_spread_m_s, w.snow.weight,
-          w.snow.inertia, w.snow.crossing);
+    h.all(w.snow.crystal, w.snow.spectrum, w.snow.rate_mm_h, w.snow.fall_speed_spread_m_s,
+          w.snow.fall_speed_m_s, w.snow.weight, w.snow.inertia, w.snow.crossing);
     add(h, w.wind);
     h.add(w.emitters.size());
     for (const Emitter& e : w.emitters) add(h, e);

@@ -41,6 +41,14 @@ void describe_snow(Section& section, Snow& snow)
     section.number({.name = "fall_speed_spread_m_s",
                     .about = "standard deviation of fall speed between flakes of one size"},
                    {.min = 0, .max = 5}, snow.fall_speed_spread_m_s);
+    double speed = 0;
+    bool by_size = true;
+    if (section.number_or(
+            {.name = "fall_speed_m_s",
+             .about = "of flakes of every size (0: a tracer), or \"by-size\": by crystal and size"},
+            {.min = 0, .max = 20}, "by-size", speed, by_size) &&
+        !by_size)
+        snow.fall_speed_m_s = static_cast<float>(speed);
     section.number(
         {.name = "weight", .about = "real flakes that one drawn flake stands for, wherever light is counted"},
         {.min = 0, .max = 1e12, .above_min = true}, snow.weight);

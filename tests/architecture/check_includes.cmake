@@ -3,7 +3,7 @@ cmake_minimum_required(VERSION 3.25)
 # cmake -D ROOT=<folder of the parts> -P check_includes.cmake
 # Fails, naming each line, if a part includes what the table of docs/architecture.md does not allow it.
 
-set(parts core image scene cpu cuda gl reference measure app bench include)
+set(parts core image scene cpu cuda gl reference measure validation app bench include)
 
 # The parts whose headers a part may include.
 set(core_may core)
@@ -17,8 +17,9 @@ set(gl_may core image scene gl)
 set(reference_may core image scene reference)
 set(include_may core spindrift)
 set(measure_may core cpu cuda measure)
-set(app_may core image scene cpu cuda gl reference measure app spindrift)
-set(bench_may core image scene cpu cuda gl reference measure bench)
+set(validation_may core scene cpu validation)
+set(app_may core image scene cpu cuda gl reference measure validation app spindrift)
+set(bench_may core image scene cpu cuda gl reference measure validation bench)
 
 # Headers from outside that a part must not include: core is physics and plain data, scene plain data from files, and
 # only gl draws. The numbers of core come from its own polynomials, never from libm.
@@ -28,6 +29,7 @@ set(core_never "${graphics}|${threads}|fstream>|iostream>|cstdio>|filesystem>|cm
 set(scene_never "${graphics}|${threads}")
 set(image_never "${graphics}")
 set(cpu_never "${graphics}")
+set(validation_never "${graphics}")
 set(reference_never "${graphics}")
 set(gl_never "cuda|cub/|thrust/")
 set(cuda_never "GL/|GLFW/|EGL/|cuda_gl_interop|imgui")
@@ -43,7 +45,7 @@ foreach(part IN LISTS parts)
         endif()
         file(STRINGS ${ROOT}/${file} includes REGEX "^[ \t]*#[ \t]*include")
         foreach(line IN LISTS includes)
-            if(line MATCHES "[<\"](core|image|scene|cpu|cuda|gl|reference|measure|app|bench|tests|spindrift)/" AND
+            if(line MATCHES "[<\"](core|image|scene|cpu|cuda|gl|reference|measure|validation|app|bench|tests|spindrift)/" AND
                NOT CMAKE_MATCH_1 IN_LIST ${rules}_may)
                 list(APPEND faults "${file}: ${line} (${rules} may use: ${${rules}_may})")
             elseif(DEFINED ${rules}_never AND line MATCHES "<(${${rules}_never})")

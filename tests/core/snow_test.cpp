@@ -157,6 +157,18 @@ TEST(FallSpeed, WithoutSpreadIsTheLawItself)
     }
 }
 
+TEST(FallSpeed, OneSpeedForAllSizesReplacesTheLaw)
+{
+    for (const float given : {0.0F, 0.02F, 0.3F})
+    {
+        Snow snow;
+        snow.fall_speed_m_s = given;
+        snow.fall_speed_spread_m_s = 0;
+        const spindrift::FallSpeed speed(snow, 9);
+        for (std::uint32_t id = 0; id < 500; ++id) EXPECT_EQ(speed.at<float>(id), given);
+    }
+}
+
 TEST(FallSpeed, AWideSpreadNeverStopsOrRaisesAFlake)
 {
     Snow snow;

@@ -14,8 +14,6 @@ namespace spindrift::cpu
 namespace
 {
 
-constexpr double kPi = 3.14159265358979323846;
-
 PoissonProblem box(int nx, int ny, std::vector<double> layers)
 {
     PoissonProblem problem;
@@ -35,60 +33,6 @@ std::vector<double> layers(int n, double stretch)
     { return stretch == 0 ? 0.8 * share : 0.8 * std::expm1(stretch * share) / std::expm1(stretch); };
     for (int k = 0; k < n; ++k) result.push_back(height((k + 1.0) / n) - height(static_cast<double>(k) / n));
     return result;
-}
-
-/// Root mean square error, weighted with volume, of x against sin(pi x) sin(pi y / 1.5) cos(pi z / 1.6),
-/// whose slope is 0 at the ground and whose value is 0 on the other borders.
-double manufactured_error(int n, double stretch)
-{
-    const PoissonProblem problem = box(n, n + 1, layers(n - 1, stretch));
-    PoissonSolver solver(problem);
-    const PaddedBox& at = solver.box();
-    std::vector<double> b(static_cast<std::size_t>(at.count()), 0), x, truth = b;
-    const double k2 = kPi * kPi * (1 + 1 / 2.25 + 1 / 2.56);
-    double low = 0;
-    for (int z = 0; z < at.nz; ++z)
-    {
-        const double dz = problem.side_m[2][z], middle = low + 0.5 * dz;
-        low += dz;
-        for (int j = 0; j < at.ny; ++j)
-            for (int i = 0; i < at.nx; ++i)
-            {
-                const double value = std::sin(kPi * (i + 0.5) / at.nx) * std::sin(kPi * (j + 0.5) / at.ny) *
-                                     std::cos(kPi * middle / 1.6);
-                truth[at.index(i, j, z)] = value;
-                b[at.index(i, j, z)] = k2 * value * dz * 1.5 / (at.nx * at.ny);
-            }
-    }
-    PoissonSettings settings;
-    settings.tolerance = 1e-10;
-    EXPECT_TRUE(solver.solve(b, x, settings).converged);
-    double sum = 0;
-    for (int z = 0; z < at.nz; ++z)
-        for (int j = 0; j < at.ny; ++j)
-            for (int i = 0; i < at.nx; ++i)
-            {
-                const std::ptrdiff_t c = at.index(i, j, z);
-                sum += (x[c] - truth[c]) * (x[c] - truth[c]) * problem.side_m[2][z] / 0.8 / (at.nx * at.ny);
-            }
-    return std::sqrt(sum);
-}
-
-TEST(PoissonSolver, ConvergesWithTheSquareOfTheCell)
-{
-    for (const double stretch : {0.0, 1.5, 3.0})
-    {
-        double before = manufactured_error(9, stretch);
-        for (const int n : {18, 36, 72})
-        {
-            const double error = manufactured_error(n, stretch);
-            const double order = std::log2(before / error);
-            EXPECT_GT(order, 1.85) << n << " cells, stretched by exp " << stretch;
-            EXPECT_LT(order, 2.3) << n << " cells, stretched by exp " << stretch;
-            before = error;
-        }
-        EXPECT_LT(before, 1e-3);
-    }
 }
 
 /// Streets of odd widths between houses of odd sizes.
