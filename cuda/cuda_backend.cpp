@@ -100,6 +100,7 @@ class CudaBackend final : public Backend
     struct Recording
     {
         FlakeAddresses at;
+        const std::uint32_t* ranks;
         CapturedGraph work;
     };
 
@@ -147,25 +148,26 @@ void CudaBackend::queue_step(Behind behind)
     AdvectJob job = world_.job();
     job.flakes = at.flakes;
     begin_step(stream_, world_.step());
-    rearrange_.close_holes(stream_, control(), at, selection_.get());
+    rearrange_.close_holes(stream_, control(), at, selection_.get(), sort_.ranks());
     emit(stream_, world_.step(), job);
     mark(0);
     advect(stream_, world_.step(), job);
     mark(1);
     end_step(stream_, world_.step(), behind == Behind::reorder ? Closing::always : Closing::if_many);
     if (behind == Behind::reorder)
-        rearrange_.reorder(stream_, control(), at, {order_.grid, at.flakes});
+        rearrange_.reorder(stream_, control(), at, {order_.grid, at.flakes}, sort_.ranks());
     else
-        rearrange_.close_holes(stream_, control(), at, selection_.get());
+        rearrange_.close_holes(stream_, control(), at, selection_.get(), sort_.ranks());
     mark(2);
 }
 
-/// Recorded anew when the memory has come to lie elsewhere.
+/// Recorded anew when the memory has come to lie elsewhere, or ranks are to go with the flakes.
 const CapturedGraph& CudaBackend::graph(Behind behind)
 {
     std::optional<Recording>& recording = recordings_[static_cast<std::size_t>(behind)];
-    if (!recording || !(recording->at == addresses()))
-        recording.emplace(Recording{addresses(), CapturedGraph(stream_, [&] { queue_step(behind); })});
+    if (!recording || !(recording->at == addresses()) || recording->ranks != sort_.ranks())
+        recording.emplace(
+            Recording{addresses(), sort_.ranks(), CapturedGraph(stream_, [&] { queue_step(behind); })});
     return recording->work;
 }
 
@@ -205,7 +207,7 @@ DrawList CudaBackend::prepare(const View& view, const SortSettings& settings)
     list.count = now.visible;
     list.culled = now.state.counts.alive - now.visible;
     sort_clock_.begin(stream_);
-    sort_(stream_, strategy, settings, view, now.renumbered, at.draw_list, list);
+    sort_(stream_, strategy, settings, view, at.draw_list, list);
     if (reorders_ && list.sorted && !strategy.network)
         order_ties(stream_, list.in_scratch ? at.draw_list.scratch : at.draw_list.pairs, list.count,
                    at.flakes.id, static_cast<std::uint32_t>(now.state.next_id));
@@ -272,6 +274,7 @@ void CudaBackend::restore(const Snapshot& s)
     control.used = static_cast<std::uint32_t>(s.counts.alive);
     world_.restore_control(stream_, control);
     late_.set(control);
+    sort_.forget_order();
     step_ = s.step;
 }
 
