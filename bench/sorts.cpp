@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -19,9 +20,9 @@
 #include "measure/sort_keys.h"
 #include "measure/timing.h"
 
-// Rows sort/PATTERN/SIZE/[cuda/]STRATEGY[/BITS-bit]. All rows of one pattern and size are measured together,
-// strategy after strategy within each round, so that what else the machine does hits all of them; a row
-// reports its median. Those on a device are timed by its events.
+// Rows sort/PATTERN/SIZE/[cuda/]STRATEGY[/BITS-bit]. All rows of one pattern, size and backend are measured
+// together, strategy after strategy within each round, so that what else the machine does hits all of them; a
+// row reports its median. Those on a device are timed by its events.
 
 namespace spindrift::bench
 {
@@ -51,12 +52,12 @@ double floor_bytes(const SortTraits& traits, std::size_t n)
     return own == 0 ? 16 : own;
 }
 
-/// The series of all contenders on one input.
+/// The series of all contenders of a backend on one input.
 class Comparison
 {
   public:
-    Comparison(KeyPattern pattern, std::size_t n)
-        : n_(n), source_(pattern, n), contenders_(make_contenders({}, n, source_.slots()))
+    Comparison(KeyPattern pattern, std::size_t n, const WantedSorts& wanted)
+        : n_(n), source_(pattern, n), contenders_(make_contenders(wanted, n, source_.slots()))
     {
         series_.resize(contenders_.size());
         measure();
@@ -144,35 +145,40 @@ class Comparison
     std::map<std::string, double> best_library_ms_;  // by backend
 };
 
-// Kept until a row of another input is asked for.
-const Comparison& comparison_of(KeyPattern pattern, std::size_t n)
+// Kept until a row of another input or backend is asked for.
+const Comparison& comparison_of(KeyPattern pattern, std::size_t n, const std::string& backend)
 {
     static std::unique_ptr<Comparison> newest;
-    static std::pair<KeyPattern, std::size_t> of;
-    if (!newest || of != std::pair{pattern, n})
+    static std::tuple<KeyPattern, std::size_t, std::string> of;
+    const std::tuple asked{pattern, n, backend};
+    if (!newest || of != asked)
     {
         newest.reset();
-        newest = std::make_unique<Comparison>(pattern, n);
-        of = {pattern, n};
+        newest = std::make_unique<Comparison>(
+            pattern, n, WantedSorts{.cpu = backend == "cpu", .cuda = backend == "cuda", .strategies = {}});
+        of = asked;
     }
     return *newest;
 }
 
 bool register_rows()
 {
-    const auto all = list_sorts({});
+    const auto add = [](KeyPattern pattern, const Size& size, const SortTraits& traits, std::size_t row)
+    {
+        const auto name = fmt::format("sort/{}/{}/{}", pattern_name(pattern), size.name, traits.name);
+        benchmark::RegisterBenchmark(
+            name.c_str(), [=](benchmark::State& state)
+            { comparison_of(pattern, size.n, traits.backend).report(state, traits, row); })
+            ->UseManualTime()
+            ->Iterations(1)
+            ->Unit(benchmark::kMillisecond);
+    };
+    const std::array backends{list_sorts({.cpu = true, .cuda = false, .strategies = {}}),
+                              list_sorts({.cpu = false, .cuda = true, .strategies = {}})};
     for (const KeyPattern pattern : kKeyPatterns)
         for (const Size& size : kSizes)
-            for (std::size_t row = 0; row < all.size(); ++row)
-            {
-                const auto name =
-                    fmt::format("sort/{}/{}/{}", pattern_name(pattern), size.name, all[row].name);
-                benchmark::RegisterBenchmark(name.c_str(), [=, traits = all[row]](benchmark::State& state)
-                                             { comparison_of(pattern, size.n).report(state, traits, row); })
-                    ->UseManualTime()
-                    ->Iterations(1)
-                    ->Unit(benchmark::kMillisecond);
-            }
+            for (const auto& sorts : backends)
+                for (std::size_t row = 0; row < sorts.size(); ++row) add(pattern, size, sorts[row], row);
     return true;
 }
 
