@@ -178,6 +178,27 @@ TEST_F(CudaCommand, EmbeddedItGivesTheProcessorsFlakesAndPicture)
     EXPECT_THROW(Simulation(small_scene(), on_device), Error);
 }
 
+TEST_F(CudaCommand, StudiesSortsWithTheProcessorsInversionsAndPictures)
+{
+    const std::string file = in_folder("sorts.json");
+    const Finished run =
+        run_command({"sorts", "--scene", SPINDRIFT_SOURCE_DIR "/scenes/canyon.toml", "--frames", "3",
+                     "--particles", "3000", "--size", "160x90", "--strategies",
+                     "bitonic-passes,cub-radix,odd-even-passes", "--out", file});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    std::map<std::string, json> rows;
+    const json written = json::parse(read(file));
+    for (const json& row : written.at("rows")) rows[row.at("sort")] = row;
+    for (const std::string sort : {"bitonic-passes", "odd-even-passes"})
+        for (const char* what : {"inversion_fraction", "image_relative_l2"})
+        {
+            EXPECT_GT(rows.at(sort).at(what), 0) << sort << " " << what;
+            EXPECT_EQ(rows.at("cuda/" + sort).at(what), rows.at(sort).at(what)) << sort << " " << what;
+        }
+    EXPECT_EQ(rows.at("cuda/cub-radix").at("image_relative_l2"), 0);
+    EXPECT_GT(rows.at("cuda/cub-radix/16-bit").at("inversion_fraction"), 0);
+}
+
 TEST_F(CudaCommand, InfoNamesTheDeviceAndTheWayToGl)
 {
     const Finished run = run_command({"info"});

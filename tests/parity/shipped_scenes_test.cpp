@@ -58,7 +58,8 @@ speed_m_s = 4
 cell_m = 13
 [[emitter]]
 shape = "point"
-position_m = [1, 1, 100]
+at_m = [1, 1, 100]
+burst = 1
 [[box]]
 min_m = [120, 60, 0]
 max_m = [160, 110, 60]
