@@ -87,6 +87,24 @@ class CudaBackend final : public Backend
         reorder,
     };
 
+    /// Looks at the flakes between frames: memory that was not open is closed again, since GL may read it
+    /// next.
+    class Look
+    {
+      public:
+        explicit Look(const CudaBackend& backend) : backend_(backend), was_open_(backend.mapped_) {}
+        ~Look()
+        {
+            if (!was_open_) backend_.mapped_.reset();
+        }
+        Look(const Look&) = delete;
+        Look& operator=(const Look&) = delete;
+
+      private:
+        const CudaBackend& backend_;
+        bool was_open_;
+    };
+
     const FlakeAddresses& addresses() const;
     const StepControl* control() const { return world_.step().control; }
     void queue_step(Behind behind);
@@ -224,17 +242,20 @@ StepState CudaBackend::exact_state() const
 
 std::uint64_t CudaBackend::state_hash() const
 {
+    const Look look(*this);
     const std::uint64_t sum = sums_.hash(stream_, control(), capacity_, addresses().flakes);
     return sum + counts_hash(exact_state().counts);
 }
 
 FlakeExtent CudaBackend::extent() const
 {
+    const Look look(*this);
     return sums_.extent(stream_, control(), capacity_, addresses().flakes);
 }
 
 Snapshot CudaBackend::save() const
 {
+    const Look look(*this);
     const StepState state = exact_state();
     std::vector<std::uint32_t> words[kFlakeArrays];
     const auto arrays = flake_words(addresses().flakes);
@@ -263,6 +284,7 @@ Snapshot CudaBackend::save() const
 void CudaBackend::restore(const Snapshot& s)
 {
     check_snapshot(s, hash_, capacity_, emitters_, anchors_);
+    const Look look(*this);
     const auto arrays = flake_words(addresses().flakes);
     for (std::size_t a = 0; a < kFlakeArrays; ++a)
         if (!s.arrays[a].empty()) copy_to_device(stream_, arrays[a], s.arrays[a].data(), s.arrays[a].size());
