@@ -54,8 +54,9 @@ class TileBins
     }
     std::span<const std::uint32_t> of(std::size_t tile) const
     {
+        if (chunks_ == 0) return {};
         const std::size_t first = tile == 0 ? 0 : starts_[tile * chunks_ - 1];
-        return {which_.data() + first, chunks_ == 0 ? 0 : starts_[(tile + 1) * chunks_ - 1] - first};
+        return {which_.data() + first, starts_[(tile + 1) * chunks_ - 1] - first};
     }
 
   private:
