@@ -57,7 +57,7 @@ run_tests()
 measure()
 {
     local topic=$1 seconds=$2 filter=$3 log=$build/bench-$1.log
-    [[ -z $small ]] || filter=$4
+    [[ -z $small ]] || filter=$4 seconds=$budget_s
     ((seconds < $(left_s))) || seconds=$(left_s)
     local bench=$build/bench/spindrift-bench
     say "bench: $topic"
@@ -101,7 +101,7 @@ run town-4M-1080p 4000000 1920x1080 --backend cuda
 run town-shared 1000000 1280x720 --backend cuda --interop on
 run town-copied 1000000 1280x720 --backend cuda --interop off
 run town-cpu 1000000 1280x720 --backend cpu
-measure advect 80 '^advect/.*/cuda' '^advect/.*/10K/.*/cuda'
+measure advect 80 '^advect/.*/cuda' '^advect/.*/10K/.*/cuda/(iterations|step/kernel|step/graph/(iterations|reorder-16/))'
 measure wind 40 '^wind/.*/cuda' '^wind/size/32K/cuda'
 measure sorts 200 '^sort/(random|camera-sweep)/.*/cuda/' '^sort/(random|camera-sweep)/15K/cuda/'
 

@@ -30,6 +30,11 @@ struct Case
     std::string scene;
 };
 
+std::ostream& operator<<(std::ostream& out, const Case& c)
+{
+    return out << c.scene << ", " << c.variant;
+}
+
 std::vector<Case> cases()
 {
     std::vector<Case> all;
