@@ -11,25 +11,20 @@ namespace spindrift::app
 namespace
 {
 
-std::string cpu_option(const RunOptions& options)
+void require_cuda(const BackendWish& wish, const CudaSupport& cuda)
 {
-    return options.threads ? "--threads" : options.simd ? "--simd" : "";
-}
-
-void require_cuda(const CudaSupport& cuda)
-{
+    const std::string others = fmt::format("use {0} cpu or {0} auto", wish.key);
     if (!cuda.built)
-        throw Error("--backend cuda: this build has no CUDA backend; use --backend cpu or --backend auto");
+        throw Error(fmt::format("{} cuda: this build has no CUDA backend; {}", wish.key, others));
     if (cuda.devices.empty())
         throw Error(
-            fmt::format("--backend cuda: there is no CUDA device ({}); use --backend cpu or --backend auto",
-                        cuda.none_because));
+            fmt::format("{} cuda: there is no CUDA device ({}); {}", wish.key, cuda.none_because, others));
 }
 
-BackendChoice choose_automatically(const RunOptions& options, const CudaSupport& cuda)
+BackendChoice choose_automatically(const BackendWish& wish, const CudaSupport& cuda)
 {
-    if (const std::string option = cpu_option(options); !option.empty())
-        return {"cpu", fmt::format("chosen by auto: {} is an option of the CPU backend", option)};
+    if (!wish.cpu_option.empty())
+        return {"cpu", fmt::format("chosen by auto: {} is an option of the CPU backend", wish.cpu_option)};
     if (!cuda.built) return {"cpu", "chosen by auto: this build has the CPU backend only"};
     if (cuda.devices.empty())
         return {"cpu", fmt::format("chosen by auto: there is no CUDA device ({})", cuda.none_because)};
@@ -38,29 +33,37 @@ BackendChoice choose_automatically(const RunOptions& options, const CudaSupport&
 
 }  // namespace
 
-BackendChoice choose_backend(const RunOptions& options, const CudaSupport& cuda)
+BackendChoice choose_backend(const BackendWish& wish, const CudaSupport& cuda)
 {
     BackendChoice choice;
-    if (options.backend == "cpu")
-        choice = {"cpu", "asked for with --backend cpu"};
-    else if (options.backend == "cuda")
+    if (wish.backend == "cpu")
+        choice = {"cpu", fmt::format("asked for with {} cpu", wish.key)};
+    else if (wish.backend == "cuda")
     {
-        require_cuda(cuda);
-        choice = {"cuda", "asked for with --backend cuda"};
+        require_cuda(wish, cuda);
+        choice = {"cuda", fmt::format("asked for with {} cuda", wish.key)};
     }
-    else if (options.backend == "auto")
-        choice = choose_automatically(options, cuda);
+    else if (wish.backend == "auto")
+        choice = choose_automatically(wish, cuda);
     else
-        throw Error(fmt::format("--backend {}: is unknown; use auto, cpu or cuda", options.backend));
+        throw Error(fmt::format("{} {}: is unknown; use auto, cpu or cuda", wish.key, wish.backend));
 
-    if (const std::string option = cpu_option(options); choice.name == "cuda" && !option.empty())
-        throw Error(
-            fmt::format("{} has no effect on the CUDA backend; leave it out or use --backend cpu", option));
-    if (choice.name == "cpu" && options.cuda_graph)
-        throw Error(fmt::format(
-            "--cuda-graph has no effect on the CPU backend ({}); leave it out or use --backend cuda",
-            choice.reason));
+    if (choice.name == "cuda" && !wish.cpu_option.empty())
+        throw Error(fmt::format("{} has no effect on the CUDA backend; leave it out or use {} cpu",
+                                wish.cpu_option, wish.key));
+    if (choice.name == "cpu" && !wish.cuda_option.empty())
+        throw Error(fmt::format("{} has no effect on the CPU backend ({}); leave it out or use {} cuda",
+                                wish.cuda_option, choice.reason, wish.key));
     return choice;
+}
+
+BackendWish wish_of(const RunOptions& options)
+{
+    return {.backend = options.backend,
+            .cpu_option = options.threads ? "--threads"
+                          : options.simd  ? "--simd"
+                                          : "",
+            .cuda_option = options.cuda_graph ? "--cuda-graph" : ""};
 }
 
 }  // namespace spindrift::app

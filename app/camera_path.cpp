@@ -2,6 +2,7 @@
 #include "app/camera_path.h"
 
 #include <algorithm>
+#include <unordered_map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -59,24 +60,27 @@ KeysOfFrame CameraPath::keys()
             simulator_->prepare(view_, {.strategy = "none", .depth_bits = KeysOfFrame::kBits[i]});
         keys.pairs[i].assign(pairs, pairs + list.count);
     }
+    keys.sources = moves();
+    ids_.assign(flakes_.id, flakes_.id + simulator_->backend().slots_used());
     return keys;
 }
 
-SortStart CameraPath::start()
+/// The backend does not say where flakes went; their ids do. As KeysOfFrame::sources.
+std::vector<std::uint32_t> CameraPath::moves() const
 {
-    if (slots_were_renumbered()) kept_order_.forget();
-    return kept_order_.next(view_);
-}
-
-/// The backend does not say; a slot that holds another flake than at the last frame does.
-bool CameraPath::slots_were_renumbered()
-{
-    const std::uint32_t* const ids = flakes_.id;
-    const std::size_t used = simulator_->backend().slots_used();
-    const std::size_t both = std::min(used, ids_.size());
-    const bool renumbered = !std::equal(ids_.begin(), ids_.begin() + static_cast<std::ptrdiff_t>(both), ids);
-    ids_.assign(ids, ids + used);
-    return renumbered;
+    const std::span ids(flakes_.id, simulator_->backend().slots_used());
+    const std::size_t both = std::min(ids.size(), ids_.size());
+    if (std::equal(ids_.begin(), ids_.begin() + static_cast<std::ptrdiff_t>(both), ids.begin())) return {};
+    std::unordered_map<std::uint32_t, std::uint32_t> slots;
+    for (std::uint32_t slot = 0; slot < ids_.size(); ++slot) slots[ids_[slot]] = slot;
+    std::vector<std::uint32_t> sources(ids.size());
+    std::ranges::transform(ids, sources.begin(),
+                           [&](std::uint32_t id)
+                           {
+                               const auto found = slots.find(id);
+                               return found == slots.end() ? kNoRank : found->second;
+                           });
+    return sources;
 }
 
 std::string CameraPath::pictures_by() const

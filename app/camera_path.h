@@ -36,7 +36,7 @@ class CameraPath
 
     /// What the frame has to be sorted, and from what a sort over frames may begin.
     KeysOfFrame keys();
-    SortStart start();
+    SortStart start() { return kept_order_.next(view_); }
 
     bool draws() const { return renderer_.has_value(); }
     std::string pictures_by() const;  ///< the GL renderer, or why there are no pictures
@@ -47,7 +47,7 @@ class CameraPath
 
   private:
     image::Image picture(std::span<const std::uint64_t> order);
-    bool slots_were_renumbered();
+    std::vector<std::uint32_t> moves() const;
 
     scene::Scene scene_;
     scene::Geometry geometry_;
@@ -64,7 +64,7 @@ class CameraPath
     double time_s_ = 0;
     View view_;
     KeptOrder kept_order_;
-    std::vector<std::uint32_t> ids_;             ///< by slot, at the last frame
+    std::vector<std::uint32_t> ids_;             ///< by slot, at the last frame that was sorted
     std::optional<image::Image> exact_picture_;  ///< of the frame at hand
 };
 

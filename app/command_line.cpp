@@ -405,7 +405,8 @@ void add_wind(CLI::App& app, WindOptions& options)
         ->required()
         ->type_name("FILE");
     add_wind_files(command, options.overrides);
-    command.add_option("--threads", options.threads, "Threads of the solver; 0: one per core")
+    add_backend(command, options.backend, "OPTIONS");
+    command.add_option("--threads", options.threads, "Threads of the solver on the CPU; 0: one per core")
         ->type_name("T")
         ->check(CLI::Range(0, 1024));
     static const std::map<std::string, bool> kMethods = {{"multigrid", false}, {"sor", true}};

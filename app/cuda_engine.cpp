@@ -9,6 +9,7 @@
 #include "cuda/flake_memory.h"
 #include "cuda/interop/gl_device.h"
 #include "cuda/interop/sharing.h"
+#include "cuda/poisson_solver.h"
 
 namespace spindrift::app
 {
@@ -109,6 +110,11 @@ Engine make_cuda_engine(const World& world, const RunOptions& options, std::uint
     gpu::Sharing sharing = gpu::find_sharing(wish);
     auto memory = gpu::make_drawn_memory(world.capacity, wish, sharing);
     return on(std::make_unique<DrawnMemory>(std::move(memory)), way_of(sharing), world, cuda);
+}
+
+PoissonSolverMaker cuda_poisson_solver()
+{
+    return [](const PoissonProblem& problem) { return gpu::make_poisson_solver(problem); };
 }
 
 std::unique_ptr<gl::Context> make_drawing_context()

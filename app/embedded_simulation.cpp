@@ -3,12 +3,17 @@
 
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "app/backend_choice.h"
+#include "app/engine.h"
 #include "app/frame_drawer.h"
 #include "app/machine.h"
+#include "app/options.h"
 #include "app/simulator.h"
+#include "app/sort_choice.h"
 #include "cpu/snapshot_file.h"
 #include "cpu/wind_projection.h"
 #include "gl/context.h"
@@ -36,10 +41,39 @@ bool never()
     return false;
 }
 
+/// As the command would be asked for it.
+app::RunOptions run_options(const SimulationOptions& options)
+{
+    app::RunOptions run;
+    run.backend = options.backend;
+    if (options.threads != 0) run.threads = options.threads;
+    if (options.simd != "auto") run.simd = app::parse_simd(options.simd);
+    return run;
+}
+
+app::BackendChoice choose(const SimulationOptions& options)
+{
+    return app::choose_backend({.backend = options.backend,
+                                .cpu_option = options.threads != 0     ? "threads"
+                                              : options.simd != "auto" ? "simd"
+                                                                       : "",
+                                .key = "backend ="},
+                               app::cuda_support());
+}
+
+scene::Scene read(const std::filesystem::path& file, const SimulationOptions& options,
+                  const std::string& backend)
+{
+    scene::Scene scene = scene::read_scene(file, overrides(options));
+    scene.render.sort = app::choose_sort(backend, scene.render.sort);
+    return scene;
+}
+
 }  // namespace
 
 struct Simulation::Impl
 {
+    app::BackendChoice choice;
     scene::Scene scene;
     scene::Geometry geometry;
     World world;
@@ -47,28 +81,44 @@ struct Simulation::Impl
     std::unique_ptr<gl::Context> context;  // outlives all that holds GL objects
     std::unique_ptr<app::Simulator> simulator;
     std::unique_ptr<app::FrameDrawer> drawer;
-    FlakeView flakes{};
+    FlakeView live{};                              ///< null where the flakes lie on a device
+    std::vector<std::vector<std::uint32_t>> copy;  ///< of flakes on a device
     bool drawn = false;
 
     Impl(const std::filesystem::path& file, const SimulationOptions& options)
-        : scene(scene::read_scene(file, overrides(options))),
+        : choice(choose(options)),
+          scene(read(file, options, choice.name)),
           geometry(scene::read_geometry(scene)),
-          world(scene::make_world(scene, geometry, cpu::project_wind()))
+          world(scene::make_world(
+              scene, geometry,
+              cpu::project_wind(on_device() ? app::cuda_poisson_solver() : PoissonSolverMaker{})))
     {
         const bool pictures = options.pictures == Pictures::on;
-        if (pictures) context = gl::make_headless_context();
-        auto memory =
-            pictures ? app::make_shared_memory(world.capacity) : app::make_host_memory(world.capacity);
-        flakes = memory->flakes();
-        const cpu::CpuOptions cpu{options.threads, app::parse_simd(options.simd), scene.reorder_every_steps};
-        auto backend = cpu::make_cpu_backend(world, flakes, memory->draw_list(), cpu);
-        simulator = std::make_unique<app::Simulator>(std::move(memory), std::move(backend), log);
+        if (pictures) context = on_device() ? app::make_drawing_context() : gl::make_headless_context();
+        const app::RunOptions run = run_options(options);
+        const auto make = on_device() ? app::make_cuda_engine : app::make_cpu_engine;
+        app::Engine engine =
+            make(world, run, scene.reorder_every_steps, pictures ? app::Drawing::on : app::Drawing::off);
+        if (const auto* host = dynamic_cast<const app::HostFlakeMemory*>(engine.memory.get()))
+            live = host->flakes();
+        simulator =
+            std::make_unique<app::Simulator>(std::move(engine.memory), std::move(engine.backend), log);
         if (pictures)
             drawer = std::make_unique<app::FrameDrawer>(scene, geometry, world, *simulator, context->info(),
-                                                        cpu, log);
+                                                        app::cpu_options(run), log);
     }
 
+    bool on_device() const { return choice.name == "cuda"; }
     Backend& backend() const { return simulator->backend(); }
+
+    FlakeView flakes()
+    {
+        if (!on_device()) return live;
+        copy = backend().save().arrays;
+        const auto floats = [&](std::size_t array) { return reinterpret_cast<float*>(copy[array].data()); };
+        return {floats(0), floats(1), floats(2), floats(3),      floats(4),      floats(5),
+                floats(6), floats(7), floats(8), copy[9].data(), copy[10].data()};
+    }
 };
 
 Simulation::Simulation(const std::filesystem::path& scene, const SimulationOptions& options)
@@ -92,6 +142,10 @@ void Simulation::advance_to(double time_s)
     impl_->simulator->advance_to(static_cast<std::uint64_t>(std::floor(time_s / step_s() + 1e-6)), never);
 }
 
+std::string Simulation::backend() const
+{
+    return impl_->backend().name();
+}
 double Simulation::step_s() const
 {
     return impl_->world.step_s;
@@ -106,7 +160,7 @@ std::uint64_t Simulation::steps() const
 }
 FlakeCounts Simulation::counts() const
 {
-    return impl_->backend().counts();
+    return impl_->simulator->exact_counts();
 }
 std::uint64_t Simulation::state_hash() const
 {
@@ -114,11 +168,11 @@ std::uint64_t Simulation::state_hash() const
 }
 FlakeView Simulation::flakes() const
 {
-    return impl_->flakes;
+    return impl_->flakes();
 }
 std::size_t Simulation::slots_used() const
 {
-    return impl_->backend().slots_used();
+    return impl_->on_device() ? counts().alive : impl_->backend().slots_used();
 }
 
 void Simulation::save(const std::filesystem::path& snapshot) const

@@ -8,6 +8,7 @@
 #include "app/flake_memory.h"
 #include "app/options.h"
 #include "core/backend.h"
+#include "core/poisson_solver.h"
 #include "core/world.h"
 #include "gl/context.h"
 
@@ -43,6 +44,9 @@ Engine make_cpu_engine(const World& world, const RunOptions& options, std::uint3
                        Drawing drawing);
 Engine make_cuda_engine(const World& world, const RunOptions& options, std::uint32_t reorder_every_steps,
                         Drawing drawing);
+
+/// Solves for winds on the current CUDA device. Throws Error in a build without CUDA.
+PoissonSolverMaker cuda_poisson_solver();
 
 /// What this build and machine have of CUDA.
 struct CudaSupport

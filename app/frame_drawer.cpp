@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/frame_drawer.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "cpu/tile_splatter.h"
 
@@ -68,19 +70,25 @@ gl::FramePlan FrameDrawer::plan(const View& view, double time_s, const FlakeCoun
     return gl::plan_frame(scene_, view, stats, time_s, geometry_.model_lights, gl_);
 }
 
+/// Of steps that a device has not done yet nothing is known, not even whether a flake lives: so the list is
+/// made as if one did, and what prepare() has to learn anyway goes into the plan.
+FlakeCounts FrameDrawer::list_flakes(const View& view, double time_s)
+{
+    FlakeCounts some = simulator_.backend().counts();
+    some.alive = std::max<std::uint64_t>(some.alive, 1);
+    const gl::FramePlan foreseen = plan(view, time_s, some);
+    if (!foreseen.runs("cull")) return counts_;
+    SortSettings settings = sort();
+    if (!foreseen.runs("sort")) settings.strategy = "none";
+    list_ = simulator_.prepare(view, settings);
+    return counts_ = simulator_.backend().counts();
+}
+
 void FrameDrawer::draw(const View& view, double time_s)
 {
-    const FlakeCounts counts = simulator_.exact_counts();
+    const FlakeCounts counts = list_flakes(view, time_s);
     const gl::FramePlan frame = plan(view, time_s, counts);
     plans_.add(frame);
-    if (frame.runs("cull"))
-    {
-        SortSettings settings = sort();
-        if (!frame.runs("sort")) settings.strategy = "none";
-        list_ = simulator_.prepare(view, settings);
-    }
-    else if (counts.alive == 0)
-        list_ = {};
     stale_ = false;
     last_view_ = view;
     last_time_s_ = time_s;
@@ -92,8 +100,9 @@ void FrameDrawer::draw(const View& view, double time_s)
         const StageTimer timer(log_, "draw calls");
         renderer_.draw(frame, view, list_, time_s);
     }
+    if (gl_ != gl::GlKind::out_of_reach)
     {
-        // The next step or cull may write where GL still reads.
+        // The next step or cull may write where GL still reads; CUDA's come behind GL by themselves.
         const StageTimer timer(log_, "wait for GL");
         renderer_.wait_for_flakes();
     }

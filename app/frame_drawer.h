@@ -43,6 +43,8 @@ class FrameDrawer
 
   private:
     gl::FramePlan plan(const View& view, double time_s, const FlakeCounts& counts) const;
+    /// Makes the draw list anew if anything moved. Returns the counts of the steps that were made.
+    FlakeCounts list_flakes(const View& view, double time_s);
 
     scene::Scene scene_;  ///< its sort may be changed
     const scene::Geometry& geometry_;
@@ -58,6 +60,7 @@ class FrameDrawer
     std::optional<double> last_time_s_;
     std::uint64_t last_step_ = 0;
     DrawList list_;
+    FlakeCounts counts_;  ///< when the list was made
     std::vector<float> drawn_, culled_;
 };
 

@@ -88,8 +88,9 @@ struct WindOptions
     std::string scene;
     scene::SceneOverrides overrides;
     std::filesystem::path out;
-    int threads = 0;     ///< 0: one per core
-    bool relax = false;  ///< by red-black over-relaxation instead of multigrid
+    std::string backend = "auto";
+    std::optional<int> threads;  ///< of the CPU backend
+    bool relax = false;          ///< by red-black over-relaxation instead of multigrid
 };
 
 /// What `spindrift validate` was asked for.

@@ -50,12 +50,14 @@ void check_files(const RunOptions& options)
 
 RunInput read_input(const RunOptions& options)
 {
-    const BackendChoice choice = choose_backend(options, cuda_support());
+    const BackendChoice choice = choose_backend(wish_of(options), cuda_support());
     scene::Scene scene = scene::read_scene(find_scene(options.scene), options.overrides);
     if (options.depth_bits) scene.render.depth_bits = *options.depth_bits;
     scene.render.sort = choose_sort(choice.name, scene.render.sort);
     scene::Geometry geometry = scene::read_geometry(scene);
-    World world = scene::make_world(scene, geometry, cpu::project_wind());
+    World world = scene::make_world(
+        scene, geometry,
+        cpu::project_wind(choice.name == "cuda" ? cuda_poisson_solver() : PoissonSolverMaker{}));
     return {std::move(scene), std::move(geometry), std::move(world), choice};
 }
 

@@ -54,6 +54,7 @@ void SortStudy::add_frame(const KeysOfFrame& keys, SortStart start, Look look, c
     {
         measure::SortContender& sort = *sorts_[i];
         const int key_bits = sort.traits().key_bits;
+        if (!keys.sources.empty()) sort.follow(keys.sources);
         sort.load(keys.of(key_bits));
         series_[i].sort_ms.push_back(sort.sort_ms(passes_, start));
         if (look == Look::at_order_too) look_at(sort, keys, error, series_[i]);

@@ -38,6 +38,9 @@ struct SortRow
 /// The pairs of one frame (key << 32 | slot), slots ascending, with keys of 32, 24 and 16 bits.
 struct KeysOfFrame
 {
+    std::vector<std::uint32_t>
+        sources;  ///< as SortContender::follow takes them; empty: flakes kept their slots
+
     static constexpr std::array<int, 3> kBits{32, 24, 16};
     std::array<std::vector<std::uint64_t>, 3> pairs;
 

@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "app/backend_choice.h"
 #include "app/commands.h"
+#include "app/engine.h"
 #include "app/exit_codes.h"
 #include "app/find_scene.h"
 #include "core/error.h"
@@ -63,7 +65,8 @@ class ResidualBar
     Clock::time_point start_;
 };
 
-void print_summary(const scene::GriddedWind& wind, double solve_s, const WindOptions& options)
+void print_summary(const scene::GriddedWind& wind, double solve_s, const std::string& backend,
+                   const WindOptions& options)
 {
     const StaggeredWind& grid = wind.solved.wind;
     const Projection& done = wind.solved.projection;
@@ -75,9 +78,9 @@ void print_summary(const scene::GriddedWind& wind, double solve_s, const WindOpt
     else
     {
         fmt::print(
-            "{}: {} iterations, {:.3f} s, relative residual {:.1e}, largest divergence {:.2g} to {:.2g} "
+            "{} ({}): {} iterations, {:.3f} s, relative residual {:.1e}, largest divergence {:.2g} to {:.2g} "
             "1/s\n",
-            options.relax ? "red-black over-relaxation" : "multigrid", done.iterations, solve_s,
+            options.relax ? "red-black over-relaxation" : "multigrid", backend, done.iterations, solve_s,
             done.relative_residual, done.before_per_s, done.after_per_s);
         if (!wind.solved.cached.empty()) fmt::print("kept in {}\n", wind.solved.cached.string());
     }
@@ -89,9 +92,12 @@ void print_summary(const scene::GriddedWind& wind, double solve_s, const WindOpt
 int wind(const WindOptions& options)
 {
     const scene::Scene scene = scene::read_scene(find_scene(options.scene), options.overrides);
+    const BackendChoice choice = choose_backend(
+        {.backend = options.backend, .cpu_option = options.threads ? "--threads" : ""}, cuda_support());
     cpu::ProjectionSettings settings;
-    settings.threads = options.threads;
-    if (options.relax) settings.solver.method = cpu::PoissonMethod::over_relaxation;
+    settings.threads = options.threads.value_or(0);
+    if (choice.name == "cuda") settings.make_solver = cuda_poisson_solver();
+    if (options.relax) settings.solver.method = PoissonMethod::over_relaxation;
     double solve_s = 0;
     const WindProjector project = [&](StaggeredWind& staggered)
     {
@@ -111,7 +117,7 @@ int wind(const WindOptions& options)
                         "wind.around_solids = true",
                         scene.file.string()));
     scene::write_wind(options.out, wind, scene.domain.min_m);
-    print_summary(wind, solve_s, options);
+    print_summary(wind, solve_s, choice.name, options);
     return kOk;
 }
 

@@ -53,18 +53,19 @@ run_tests()
     tests=$(sed -n 's/^\([0-9]*% tests passed.*\)/\1/p' "$build/tests.log" | plain)
 }
 
-# measure TOPIC FILTER SMALL_FILTER: the rows of spindrift-bench that match
+# measure TOPIC SECONDS FILTER SMALL_FILTER: the rows of spindrift-bench that match, in so many seconds at most
 measure()
 {
-    local topic=$1 filter=$2 log=$build/bench-$1.log
-    [[ -z $small ]] || filter=$3
+    local topic=$1 seconds=$2 filter=$3 log=$build/bench-$1.log
+    [[ -z $small ]] || filter=$4 seconds=$budget_s
+    ((seconds < $(left_s))) || seconds=$(left_s)
     local bench=$build/bench/spindrift-bench
     say "bench: $topic"
     if ! "$bench" --benchmark_list_tests --benchmark_filter="$filter" 2> /dev/null | grep -q .; then
         left_out+=("$topic: no row matches $filter")
     elif (($(left_s) < 20)); then
         left_out+=("$topic: no time left")
-    elif ! timeout "$(left_s)" "$bench" --benchmark_filter="$filter" --benchmark_out="$build/$topic.json" --benchmark_out_format=json \
+    elif ! timeout "$seconds" "$bench" --benchmark_filter="$filter" --benchmark_out="$build/$topic.json" --benchmark_out_format=json \
         --benchmark_context="gpu=$gpu,driver=$driver,cuda=$toolkit,cpu=$cpu,commit=$commit" > "$log" 2>&1; then
         left_out+=("$topic: failed or ran out of time")
         failed=1
@@ -75,16 +76,16 @@ measure()
     fi
 }
 
-# run TOPIC OPTION...: statistics of a run that draws
+# run TOPIC PARTICLES SIZE OPTION...: statistics of a run that draws
 run()
 {
-    local topic=$1 size=1280x720 particles=1000000 frames=120
+    local topic=$1 particles=$2 size=$3 frames=120
     if [[ -n $small ]]; then size=160x90 particles=2000 frames=2; fi
     say "run: $topic"
     if (($(left_s) < 20)); then
         left_out+=("$topic: no time left")
     elif ! timeout "$(left_s)" "$build/spindrift" run scenes/town.toml --headless --particles $particles --size $size --frames $frames \
-        --out "$build/$topic.png" --stats "$build/$topic.json" "${@:2}" > "$build/run-$topic.log" 2>&1; then
+        --out "$build/$topic.png" --stats "$build/$topic.json" "${@:4}" > "$build/run-$topic.log" 2>&1; then
         left_out+=("$topic: $(tail -1 "$build/run-$topic.log" | plain)")
     else
         cp "$build/$topic.json" "$results/gpu-$card-$topic.json"
@@ -96,12 +97,13 @@ build_all
 say "machine"
 "$build/spindrift" info
 run_tests
-measure sorts '^sort/.*/cuda/' '^sort/random/15K/cuda/'
-measure advect '^advect/.*cuda' '^advect/.*cuda'
-measure frames '^frame/.*cuda' '^frame/.*cuda'
-run town-shared --backend cuda --interop on
-run town-copied --backend cuda --interop off
-run town-cpu --backend cpu
+run town-4M-1080p 4000000 1920x1080 --backend cuda
+run town-shared 1000000 1280x720 --backend cuda --interop on
+run town-copied 1000000 1280x720 --backend cuda --interop off
+run town-cpu 1000000 1280x720 --backend cpu
+measure advect 80 '^advect/.*/cuda' '^advect/.*/10K/.*/cuda/(iterations|step/kernel|step/graph/(iterations|reorder-16/))'
+measure wind 40 '^wind/.*/cuda' '^wind/size/32K/cuda'
+measure sorts 200 '^sort/(random|camera-sweep)/.*/cuda/' '^sort/(random|camera-sweep)/15K/cuda/'
 
 {
     printf '{\n  "gpu": "%s",\n  "driver": "%s",\n  "max_clocks": "%s",\n  "cuda": "%s",\n' "$gpu" "$driver" "$clocks" "$toolkit"

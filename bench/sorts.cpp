@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -19,9 +20,9 @@
 #include "measure/sort_keys.h"
 #include "measure/timing.h"
 
-// Rows sort/PATTERN/SIZE/[cuda/]STRATEGY[/BITS-bit]. All rows of one pattern and size are measured together,
-// strategy after strategy within each round, so that what else the machine does hits all of them; a row
-// reports its median. Those on a device are timed by its events.
+// Rows sort/PATTERN/SIZE/[cuda/]STRATEGY[/BITS-bit]. All rows of one pattern, size and backend are measured
+// together, strategy after strategy within each round, so that what else the machine does hits all of them; a
+// row reports its median. Those on a device are timed by its events.
 
 namespace spindrift::bench
 {
@@ -51,12 +52,12 @@ double floor_bytes(const SortTraits& traits, std::size_t n)
     return own == 0 ? 16 : own;
 }
 
-/// The series of all contenders on one input.
+/// The series of all contenders of a backend on one input.
 class Comparison
 {
   public:
-    Comparison(KeyPattern pattern, std::size_t n)
-        : n_(n), source_(pattern, n), contenders_(make_contenders({}, n, source_.slots()))
+    Comparison(KeyPattern pattern, std::size_t n, const WantedSorts& wanted)
+        : n_(n), source_(pattern, n), contenders_(make_contenders(wanted, n, source_.slots()))
     {
         series_.resize(contenders_.size());
         measure();
@@ -89,21 +90,29 @@ class Comparison
     {
         constexpr std::size_t kFewestRounds = 5;
         constexpr std::size_t kMostRounds = 101;
-        constexpr double kEnough_ms = 300;  // for one contender
+        constexpr double kEnough_ms = 300;          // for one contender
+        constexpr double kEnoughOfAll_ms = 10'000;  // with bringing and looking at the pairs
         const PinnedThreads pinned;
         std::vector<double> spent_ms(contenders_.size());
+        double all_ms = 0;
         for (std::size_t round = 0; round < kMostRounds; ++round)
         {
-            next_frame();
-            for (std::size_t i = 0; i < contenders_.size(); ++i)
-            {
-                if (round >= kFewestRounds && spent_ms[i] > kEnough_ms) continue;
-                run(*contenders_[i], series_[i]);
-                spent_ms[i] += series_[i].sort_ms.back();
-            }
+            if (round >= kFewestRounds && all_ms > kEnoughOfAll_ms) break;
+            all_ms += time_ms([&] { measure_round(round, kFewestRounds, kEnough_ms, spent_ms); });
         }
         for (std::size_t i = 0; i < contenders_.size(); ++i)
             note_library(contenders_[i]->traits(), series_[i]);
+    }
+
+    void measure_round(std::size_t round, std::size_t fewest, double enough_ms, std::vector<double>& spent_ms)
+    {
+        next_frame();
+        for (std::size_t i = 0; i < contenders_.size(); ++i)
+        {
+            if (round >= fewest && spent_ms[i] > enough_ms) continue;
+            run(*contenders_[i], series_[i], round + 1 >= fewest);
+            spent_ms[i] += series_[i].sort_ms.back();
+        }
     }
 
     void next_frame()
@@ -116,15 +125,15 @@ class Comparison
         }
     }
 
-    void run(SortContender& contender, Series& series)
+    void run(SortContender& contender, Series& series, bool may_be_last)
     {
         const SortTraits& traits = contender.traits();
         contender.load(inputs_.at(traits.key_bits));
         series.sort_ms.push_back(contender.sort_ms(kPasses, SortStart::as_kept));
         const auto result = contender.result();
-        if (traits.network)
+        if (traits.network && may_be_last)
             series.inversions = cpu::inversion_fraction(result);
-        else if (!std::is_sorted(result.begin(), result.end()))
+        else if (!traits.network && !std::is_sorted(result.begin(), result.end()))
             std::abort();  // a time for a wrong order means nothing
         series.floor_ms.push_back(contender.copy_ms(floor_bytes(traits, n_)));
     }
@@ -144,35 +153,40 @@ class Comparison
     std::map<std::string, double> best_library_ms_;  // by backend
 };
 
-// Kept until a row of another input is asked for.
-const Comparison& comparison_of(KeyPattern pattern, std::size_t n)
+// Kept until a row of another input or backend is asked for.
+const Comparison& comparison_of(KeyPattern pattern, std::size_t n, const std::string& backend)
 {
     static std::unique_ptr<Comparison> newest;
-    static std::pair<KeyPattern, std::size_t> of;
-    if (!newest || of != std::pair{pattern, n})
+    static std::tuple<KeyPattern, std::size_t, std::string> of;
+    const std::tuple asked{pattern, n, backend};
+    if (!newest || of != asked)
     {
         newest.reset();
-        newest = std::make_unique<Comparison>(pattern, n);
-        of = {pattern, n};
+        newest = std::make_unique<Comparison>(
+            pattern, n, WantedSorts{.cpu = backend == "cpu", .cuda = backend == "cuda", .strategies = {}});
+        of = asked;
     }
     return *newest;
 }
 
 bool register_rows()
 {
-    const auto all = list_sorts({});
+    const auto add = [](KeyPattern pattern, const Size& size, const SortTraits& traits, std::size_t row)
+    {
+        const auto name = fmt::format("sort/{}/{}/{}", pattern_name(pattern), size.name, traits.name);
+        benchmark::RegisterBenchmark(
+            name.c_str(), [=](benchmark::State& state)
+            { comparison_of(pattern, size.n, traits.backend).report(state, traits, row); })
+            ->UseManualTime()
+            ->Iterations(1)
+            ->Unit(benchmark::kMillisecond);
+    };
+    const std::array backends{list_sorts({.cpu = true, .cuda = false, .strategies = {}}),
+                              list_sorts({.cpu = false, .cuda = true, .strategies = {}})};
     for (const KeyPattern pattern : kKeyPatterns)
         for (const Size& size : kSizes)
-            for (std::size_t row = 0; row < all.size(); ++row)
-            {
-                const auto name =
-                    fmt::format("sort/{}/{}/{}", pattern_name(pattern), size.name, all[row].name);
-                benchmark::RegisterBenchmark(name.c_str(), [=, traits = all[row]](benchmark::State& state)
-                                             { comparison_of(pattern, size.n).report(state, traits, row); })
-                    ->UseManualTime()
-                    ->Iterations(1)
-                    ->Unit(benchmark::kMillisecond);
-            }
+            for (const auto& sorts : backends)
+                for (std::size_t row = 0; row < sorts.size(); ++row) add(pattern, size, sorts[row], row);
     return true;
 }
 

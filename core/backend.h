@@ -79,7 +79,7 @@ class Backend
     /// id. Throws Error for a strategy that this backend has not got.
     virtual DrawList prepare(const View& view, const SortSettings& sort) = 0;
 
-    /// The newest that are known; a device may be some steps ahead of them until finish().
+    /// The newest that are known; a device may be some steps ahead of them until finish() or prepare().
     virtual FlakeCounts counts() const = 0;
     virtual std::uint64_t step_number() const = 0;
     virtual std::uint64_t slots_used() const = 0;  ///< holes included

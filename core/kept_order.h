@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+
 #include "core/view.h"
 
 namespace spindrift
 {
+
+/// A slot that had no place in the order of the last frame.
+inline constexpr std::uint32_t kNoRank = ~0U;
 
 /// From what a sort over frames begins.
 enum class SortStart
@@ -30,7 +35,7 @@ class KeptOrder
         view_ = view;
         return goes_on ? SortStart::as_kept : SortStart::exact;
     }
-    /// Slots were given new numbers, or another sort ran.
+    /// Slots stand for flakes that nobody followed, as in a restored snapshot, or another sort ran.
     void forget() { kept_ = false; }
 
   private:

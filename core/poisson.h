@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "core/platform.h"
 
@@ -50,6 +51,19 @@ struct FaceCoefficients
     }
 };
 
+/// 1 / sum c_f; 0 in cells that are not part of the problem.
+struct DiagonalInverter
+{
+    FaceCoefficients c;
+    float* inverse_diagonal;
+
+    SPINDRIFT_HD void operator()(std::ptrdiff_t i) const
+    {
+        const float sum = c.sum(i);
+        inverse_diagonal[i] = sum > 0.0F ? 1.0F / sum : 0.0F;
+    }
+};
+
 /// One Gauss-Seidel update of a cell, over-relaxed by `factor`. Cells of one colour of a chequerboard do not
 /// know each other, so all of a colour may be updated at once.
 template <class R>
@@ -67,6 +81,22 @@ struct Smoother
         u[i] = u[i] + factor * R(inverse_diagonal[i]) * (b[i] - c.outflow(u, i));
     }
 };
+
+/// What Smoother<float> of colour 0 makes of u = 0, in one go for both colours. `at`: x + y + z of the cell.
+struct SmootherFromZero
+{
+    const float *inverse_diagonal, *b;
+    float* u;
+
+    SPINDRIFT_HD void operator()(std::ptrdiff_t i, int at) const
+    {
+        u[i] = (at & 1) == 0 ? b[i] * inverse_diagonal[i] : 0.0F;
+    }
+};
+
+/// Sweeps of a V-cycle, as every backend makes them.
+inline constexpr int kSmoothings = 2;  ///< before and after the coarse correction
+inline constexpr int kCoarsestSmoothings = 8;
 
 /// r = b - A u; 0 in cells that are not part of the problem.
 template <class R>
@@ -186,6 +216,54 @@ struct Restrictor
         }
         return sum;
     }
+};
+
+/// Largest |r| of a row of cells along x, per volume of its cell.
+struct LargestPerVolume
+{
+    PaddedBox box;
+    const double *side_x_m, *side_y_m, *side_z_m;
+    const double* r;
+
+    SPINDRIFT_HD double operator()(int y, int z) const
+    {
+        const std::ptrdiff_t first = box.index(0, y, z);
+        double most = 0;
+        for (int x = 0; x < box.nx; ++x)
+        {
+            const double v = r[first + x] < 0 ? -r[first + x] : r[first + x];
+            const double per_length = v / side_x_m[x];
+            most = most < per_length ? per_length : most;
+        }
+        return most / (side_y_m[y] * side_z_m[z]);
+    }
+};
+
+/// How the rows of cells along x are shared out where a sum is taken: their borders depend on the box alone,
+/// and so do the roundings. A row is summed in kRowLanes sums, element i in sum i % kRowLanes, which are
+/// joined as
+/// ((0 + 1) + (2 + 3)) + ((4 + 5) + (6 + 7)); then the rows of a chunk one after the other, then the chunks.
+inline constexpr int kRowLanes = 8;
+struct RowChunks
+{
+    std::uint32_t rows, per_chunk, count;
+
+    SPINDRIFT_HD explicit RowChunks(const PaddedBox& box)
+        : rows(static_cast<std::uint32_t>(box.ny) * static_cast<std::uint32_t>(box.nz)),
+          per_chunk(box.nx < kCellsPerChunk
+                        ? static_cast<std::uint32_t>(kCellsPerChunk / (box.nx > 0 ? box.nx : 1))
+                        : 1U),
+          count((rows + per_chunk - 1) / per_chunk)
+    {
+    }
+    SPINDRIFT_HD std::uint32_t end(std::uint32_t chunk) const
+    {
+        const std::uint32_t e = (chunk + 1) * per_chunk;
+        return e < rows ? e : rows;
+    }
+
+  private:
+    static constexpr int kCellsPerChunk = 16384;
 };
 
 }  // namespace spindrift

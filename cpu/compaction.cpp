@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/compaction.h"
 #include "core/flake_words.h"
+#include "core/kept_order.h"
 
 #include <algorithm>
 #include <bit>
@@ -61,15 +62,17 @@ void close_holes(void* array, const std::uint64_t* alive, std::size_t used)
 
 Compactor::Compactor(std::size_t capacity) : alive_((capacity + kWord - 1) / kWord) {}
 
-std::size_t Compactor::operator()(const FlakeView& f, std::size_t used)
+std::size_t Compactor::operator()(const FlakeView& f, std::size_t used, std::uint32_t* ranks)
 {
     mark_alive(f, used, alive_.data());
     const auto arrays = flake_words(f);
-    parallel_for_each_index(arrays.size(),
-                            [&](std::size_t a) { close_holes(arrays[a], alive_.data(), used); });
+    const std::size_t n = arrays.size() + (ranks != nullptr ? 1 : 0);
+    parallel_for_each_index(
+        n, [&](std::size_t a) { close_holes(a < arrays.size() ? arrays[a] : ranks, alive_.data(), used); });
     std::size_t kept = 0;
     for (std::size_t i = 0; i < used; i += kWord)
         kept += static_cast<std::size_t>(std::popcount(alive_[i / kWord]));
+    if (ranks != nullptr) std::fill(ranks + kept, ranks + used, kNoRank);
     return kept;
 }
 

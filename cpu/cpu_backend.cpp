@@ -199,17 +199,15 @@ void CpuBackend::advect()
 void CpuBackend::compact()
 {
     const StageTimer timer(times_.compact);
-    compact_(flakes_, state_.used);
+    compact_(flakes_, state_.used, list_.ranks());
     state_.close_holes();
-    list_.slots_renumbered();
 }
 
 void CpuBackend::reorder()
 {
     const StageTimer timer(times_.compact);
-    reorder_by_cell({job_.grid, flakes_}, state_.used, state_.counts.alive, list_memory_);
+    reorder_by_cell({job_.grid, flakes_}, state_.used, state_.counts.alive, list_memory_, list_.ranks());
     state_.close_holes();
-    list_.slots_renumbered();
 }
 
 DrawList CpuBackend::prepare_in_arena(const View& view, const SortSettings& sort)
@@ -292,7 +290,7 @@ void CpuBackend::restore(const Snapshot& s)
     emission_.restore(s.emitter_state.data());
     anchors_.restore(s.emitter_state.data() + 2 * world.emitters.size());
     state_ = {s.counts, s.step, s.next_id, s.counts.alive};
-    list_.slots_renumbered();
+    list_.forget_order();
 }
 
 }  // namespace

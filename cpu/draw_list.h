@@ -31,8 +31,11 @@ class DrawListMaker
     /// `view`: the one that the list was filled for.
     void sort(const SortStrategy& strategy, const SortSettings& settings, const View& view, DrawList& list);
 
-    /// From now on slots stand for other flakes: sorts over frames begin anew.
-    void slots_renumbered() { kept_order_.forget(); }
+    /// By slot: places in the order that a sort over frames keeps. Whoever gives flakes other slots takes
+    /// these along. Null if no such sort has run.
+    std::uint32_t* ranks() { return pass_sorter_ ? pass_sorter_->ranks() : nullptr; }
+    /// From now on slots stand for flakes that nobody followed: sorts over frames begin anew.
+    void forget_order() { kept_order_.forget(); }
 
   private:
     const std::uint64_t* sort_over_frames(const SortJob& job, Network network, int passes, const View& view);

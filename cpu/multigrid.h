@@ -1,27 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <vector>
 
 #include "core/poisson.h"
+#include "core/poisson_levels.h"
 
 namespace spindrift::cpu
 {
 
-/// -div grad on a box of cells: which of them take part, how large they are, and what holds at the border.
-struct PoissonProblem
-{
-    std::array<std::vector<double>, 3> side_m;  ///< of the columns, rows and layers of cells
-    std::vector<std::uint8_t> part;             ///< 1: an unknown; x fastest, no border. Else a wall
-    std::array<bool, 6> zero_border{};  ///< x low, x high, y low ...: 0 on that face of the box; else a wall
-};
-
-/// The grids of a geometric multigrid, finest first. Axes are halved while their cells are the shortest
-/// (semi-coarsening), a coarse face is as open as its fine faces are on average, prolongation and restriction
-/// are each other's transpose and the smoothers mirror each other, so that one cycle is a symmetric
-/// preconditioner. Single precision.
+/// A geometric multigrid on the threads of the current arena. Prolongation and restriction are each other's
+/// transpose and the smoothers mirror each other, so that one cycle is a symmetric preconditioner. Single
+/// precision.
 class Multigrid
 {
   public:
@@ -40,30 +30,19 @@ class Multigrid
     void cycle() { cycle(0); }
 
   private:
-    struct Level
+    struct Level : PoissonLevel
     {
-        PaddedBox box;
-        std::array<std::vector<double>, 3> side_m;
-        std::array<std::vector<float>, 3> face;  ///< c_f
-        std::array<std::vector<float>, 3> open;  ///< coarser levels only
         std::vector<float> inverse_diagonal, u, b, r;
-        std::array<int, 3> halved{};               ///< on the way to the next level
-        std::array<std::vector<float>, 3> toward;  ///< with two entries more in front and behind
 
-        Level(const std::array<std::vector<double>, 3>& sides);
+        explicit Level(PoissonLevel grid);
         FaceCoefficients coefficients() const
         {
             return {face[0].data(), face[1].data(), face[2].data(), box.row(), box.plane()};
         }
         AxisMap map(int axis) const { return {toward[axis].data() + 2, halved[axis]}; }
-        void invert_diagonal();
-        /// Halves what has the shortest cells; false: nothing is left to halve.
-        bool choose_axes();
     };
 
-    void add_coarser();
     void cycle(std::size_t level);
-    static void average_faces(const Level& fine, Level& coarse, int axis);
     static void solve_coarsest(Level& level);
     static void smooth(Level& level, int colour);
     static void smooth_from_zero(Level& level);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/reorder.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "core/emission_order.h"
 #include "core/flake_words.h"
+#include "core/kept_order.h"
 #include "core/visible.h"
 #include "cpu/chunks.h"
 #include "cpu/parallel.h"
@@ -40,7 +42,8 @@ void move_words(std::uint32_t* array, const std::uint64_t* sorted, std::size_t n
 
 }  // namespace
 
-void reorder_by_cell(const CellOrder& order, std::size_t used, std::size_t alive, const DrawListView& list)
+void reorder_by_cell(const CellOrder& order, std::size_t used, std::size_t alive, const DrawListView& list,
+                     std::uint32_t* ranks)
 {
     static const SortStrategy& radix = *find_sort_strategy("radix");
     for_each_chunk(used,
@@ -53,6 +56,9 @@ void reorder_by_cell(const CellOrder& order, std::size_t used, std::size_t alive
     std::uint64_t* const rest = sorted == list.pairs ? list.scratch : list.pairs;
     for (std::uint32_t* const array : flake_words(order.flakes))
         move_words(array, sorted, alive, reinterpret_cast<std::uint32_t*>(rest));
+    if (ranks == nullptr) return;
+    move_words(ranks, sorted, alive, reinterpret_cast<std::uint32_t*>(rest));
+    std::fill(ranks + alive, ranks + used, kNoRank);
 }
 
 void order_ties(std::uint64_t* pairs, std::size_t n, const std::uint32_t* id, std::uint32_t next_id)

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <memory>
 
 #include "core/error.h"
 #include "cpu/rows.h"
@@ -58,8 +58,11 @@ std::vector<std::uint8_t> open_cells(const StaggeredWind& wind)
 class Projector
 {
   public:
-    explicit Projector(StaggeredWind& wind)
-        : wind_(wind), open_(open_cells(wind)), layout_{wind.size.nx, wind.size.ny, wind.size.nz}
+    Projector(StaggeredWind& wind, const PoissonSolverMaker& make_solver)
+        : wind_(wind),
+          make_solver_(make_solver),
+          open_(open_cells(wind)),
+          layout_{wind.size.nx, wind.size.ny, wind.size.nz}
     {
         close_faces();
     }
@@ -86,9 +89,10 @@ class Projector
             [](double a, double b) { return std::max(a, b); });
     }
 
-    PoissonSolver& solver()
+    spindrift::PoissonSolver& solver()
     {
-        if (!solver_) solver_.emplace(problem());
+        if (!solver_)
+            solver_ = make_solver_ ? make_solver_(problem()) : std::make_unique<PoissonSolver>(problem());
         return *solver_;
     }
 
@@ -154,9 +158,10 @@ class Projector
     }
 
     StaggeredWind& wind_;
+    const PoissonSolverMaker& make_solver_;
     std::vector<std::uint8_t> open_;
     PaddedBox layout_;
-    std::optional<PoissonSolver> solver_;
+    std::unique_ptr<spindrift::PoissonSolver> solver_;
 };
 
 double largest_speed(const StaggeredWind& wind)
@@ -167,10 +172,10 @@ double largest_speed(const StaggeredWind& wind)
     return most;
 }
 
-Projection project(StaggeredWind& wind, const PoissonSettings& wanted)
+Projection project(StaggeredWind& wind, const PoissonSettings& wanted, const PoissonSolverMaker& make_solver)
 {
     Projection result;
-    Projector projector(wind);
+    Projector projector(wind, make_solver);
     const double goal =
         kTolerance * largest_speed(wind) / std::min({wind.cell_m.x, wind.cell_m.y, wind.cell_m.z});
     std::vector<double> outflow, lambda;
@@ -200,9 +205,10 @@ Projection project(StaggeredWind& wind, const PoissonSettings& wanted)
 
 Projection make_divergence_free(StaggeredWind& wind, const ProjectionSettings& settings)
 {
-    if (settings.threads == 0) return project(wind, settings.solver);
+    if (settings.threads == 0) return project(wind, settings.solver, settings.make_solver);
     Projection result;
-    tbb::task_arena(settings.threads).execute([&] { result = project(wind, settings.solver); });
+    tbb::task_arena(settings.threads)
+        .execute([&] { result = project(wind, settings.solver, settings.make_solver); });
     return result;
 }
 

@@ -87,6 +87,24 @@ class CudaBackend final : public Backend
         reorder,
     };
 
+    /// Looks at the flakes between frames: memory that was not open is closed again, since GL may read it
+    /// next.
+    class Look
+    {
+      public:
+        explicit Look(const CudaBackend& backend) : backend_(backend), was_open_(backend.mapped_) {}
+        ~Look()
+        {
+            if (!was_open_) backend_.mapped_.reset();
+        }
+        Look(const Look&) = delete;
+        Look& operator=(const Look&) = delete;
+
+      private:
+        const CudaBackend& backend_;
+        bool was_open_;
+    };
+
     const FlakeAddresses& addresses() const;
     const StepControl* control() const { return world_.step().control; }
     void queue_step(Behind behind);
@@ -100,6 +118,7 @@ class CudaBackend final : public Backend
     struct Recording
     {
         FlakeAddresses at;
+        const std::uint32_t* ranks;
         CapturedGraph work;
     };
 
@@ -147,25 +166,26 @@ void CudaBackend::queue_step(Behind behind)
     AdvectJob job = world_.job();
     job.flakes = at.flakes;
     begin_step(stream_, world_.step());
-    rearrange_.close_holes(stream_, control(), at, selection_.get());
+    rearrange_.close_holes(stream_, control(), at, selection_.get(), sort_.ranks());
     emit(stream_, world_.step(), job);
     mark(0);
     advect(stream_, world_.step(), job);
     mark(1);
     end_step(stream_, world_.step(), behind == Behind::reorder ? Closing::always : Closing::if_many);
     if (behind == Behind::reorder)
-        rearrange_.reorder(stream_, control(), at, {order_.grid, at.flakes});
+        rearrange_.reorder(stream_, control(), at, {order_.grid, at.flakes}, sort_.ranks());
     else
-        rearrange_.close_holes(stream_, control(), at, selection_.get());
+        rearrange_.close_holes(stream_, control(), at, selection_.get(), sort_.ranks());
     mark(2);
 }
 
-/// Recorded anew when the memory has come to lie elsewhere.
+/// Recorded anew when the memory has come to lie elsewhere, or ranks are to go with the flakes.
 const CapturedGraph& CudaBackend::graph(Behind behind)
 {
     std::optional<Recording>& recording = recordings_[static_cast<std::size_t>(behind)];
-    if (!recording || !(recording->at == addresses()))
-        recording.emplace(Recording{addresses(), CapturedGraph(stream_, [&] { queue_step(behind); })});
+    if (!recording || !(recording->at == addresses()) || recording->ranks != sort_.ranks())
+        recording.emplace(
+            Recording{addresses(), sort_.ranks(), CapturedGraph(stream_, [&] { queue_step(behind); })});
     return recording->work;
 }
 
@@ -205,7 +225,7 @@ DrawList CudaBackend::prepare(const View& view, const SortSettings& settings)
     list.count = now.visible;
     list.culled = now.state.counts.alive - now.visible;
     sort_clock_.begin(stream_);
-    sort_(stream_, strategy, settings, view, now.renumbered, at.draw_list, list);
+    sort_(stream_, strategy, settings, view, at.draw_list, list);
     if (reorders_ && list.sorted && !strategy.network)
         order_ties(stream_, list.in_scratch ? at.draw_list.scratch : at.draw_list.pairs, list.count,
                    at.flakes.id, static_cast<std::uint32_t>(now.state.next_id));
@@ -222,17 +242,20 @@ StepState CudaBackend::exact_state() const
 
 std::uint64_t CudaBackend::state_hash() const
 {
+    const Look look(*this);
     const std::uint64_t sum = sums_.hash(stream_, control(), capacity_, addresses().flakes);
     return sum + counts_hash(exact_state().counts);
 }
 
 FlakeExtent CudaBackend::extent() const
 {
+    const Look look(*this);
     return sums_.extent(stream_, control(), capacity_, addresses().flakes);
 }
 
 Snapshot CudaBackend::save() const
 {
+    const Look look(*this);
     const StepState state = exact_state();
     std::vector<std::uint32_t> words[kFlakeArrays];
     const auto arrays = flake_words(addresses().flakes);
@@ -261,6 +284,7 @@ Snapshot CudaBackend::save() const
 void CudaBackend::restore(const Snapshot& s)
 {
     check_snapshot(s, hash_, capacity_, emitters_, anchors_);
+    const Look look(*this);
     const auto arrays = flake_words(addresses().flakes);
     for (std::size_t a = 0; a < kFlakeArrays; ++a)
         if (!s.arrays[a].empty()) copy_to_device(stream_, arrays[a], s.arrays[a].data(), s.arrays[a].size());
@@ -272,6 +296,7 @@ void CudaBackend::restore(const Snapshot& s)
     control.used = static_cast<std::uint32_t>(s.counts.alive);
     world_.restore_control(stream_, control);
     late_.set(control);
+    sort_.forget_order();
     step_ = s.step;
 }
 

@@ -2,7 +2,6 @@
 #include "cuda/draw_sort.h"
 
 #include <algorithm>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -30,9 +29,9 @@ int DrawSort::key_bits(const SortSettings& settings, const SortStrategy& strateg
 }
 
 void DrawSort::operator()(StreamRef stream, const SortStrategy& strategy, const SortSettings& settings,
-                          const View& view, std::uint32_t renumbered, const DrawListView& at, DrawList& list)
+                          const View& view, const DrawListView& at, DrawList& list)
 {
-    if (std::exchange(renumbered_, renumbered) != renumbered || !strategy.network) kept_order_.forget();
+    if (!strategy.network) kept_order_.forget();
     if (strategy.make == nullptr) return;
     if (made_ != strategy.name)
     {

@@ -25,17 +25,20 @@ class DrawSort
     /// Of the keys to make. Throws Error for a width that there is not.
     static int key_bits(const SortSettings& settings, const SortStrategy& strategy);
 
-    /// Queues the sort of list.count pairs, which `view` sees, and sets where they will be. `renumbered`
-    /// differs from last time if slots have changed their flakes since.
+    /// Queues the sort of list.count pairs, which `view` sees, and sets where they will be.
     void operator()(StreamRef stream, const SortStrategy& strategy, const SortSettings& settings,
-                    const View& view, std::uint32_t renumbered, const DrawListView& at, DrawList& list);
+                    const View& view, const DrawListView& at, DrawList& list);
+
+    /// DeviceSort::ranks of the sort that ran last; null at first.
+    std::uint32_t* ranks() const { return sort_ ? sort_->ranks() : nullptr; }
+    /// From now on slots stand for flakes that nobody followed: sorts over frames begin anew.
+    void forget_order() { kept_order_.forget(); }
 
   private:
     std::size_t capacity_;
     std::string_view made_;  ///< name of the strategy that `sort_` is
     std::unique_ptr<DeviceSort> sort_;
     KeptOrder kept_order_;
-    std::uint32_t renumbered_ = 0;
 };
 
 }  // namespace spindrift::gpu

@@ -27,6 +27,29 @@ __global__ void run_body(Body body)
     body();
 }
 
+/// A body that says how many of its blocks (of kBlockThreads) must fit on a multiprocessor at least: it gets
+/// no more registers than that leaves it.
+template <class Body>
+concept Crowded = requires
+{
+    Body::kLeastResidentBlocks;
+};
+
+template <Crowded Body>
+__global__ void __launch_bounds__(kBlockThreads, Body::kLeastResidentBlocks) run_crowded_body(Body body)
+{
+    body();
+}
+
+template <class Body>
+constexpr auto kernel_of()
+{
+    if constexpr (Crowded<Body>)
+        return &run_crowded_body<Body>;
+    else
+        return &run_body<Body>;
+}
+
 /// Runs `body()` in every thread of a grid; the one place where anything is launched. `name` shows in the
 /// profiler and in errors. No blocks: nothing happens. Throws Error for what the launch itself returned.
 template <class Body>
@@ -35,7 +58,8 @@ void launch_blocks(StreamRef stream, const char* name, unsigned blocks, unsigned
     static_assert(std::is_trivially_copyable_v<Body>, "kernels take plain data");
     if (blocks == 0) return;
     const nvtx3::scoped_range range(name);
-    run_body<<<blocks, threads, 0, stream.get()>>>(body);
+    auto* const kernel = kernel_of<Body>();
+    kernel<<<blocks, threads, 0, stream.get()>>>(body);
     const cudaError_t code = cudaGetLastError();
     if (code != cudaSuccess) throw_launch_failed(code, name, blocks, threads);
 }

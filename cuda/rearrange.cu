@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "core/flake_words.h"
 #include "cuda/rearrange.h"
 
+#include <algorithm>
 #include <array>
 
 #include <cub/device/device_radix_sort.cuh>
 
+#include "core/flake_words.h"
+#include "core/kept_order.h"
 #include "cuda/launch.cuh"
 #include "cuda/selection.cuh"
 
@@ -46,35 +48,50 @@ struct Words
     unsigned count;
 };
 
+/// to.at[a][i] = from.at[a][source]; unrolled, so that the addresses stay where the kernel's arguments are.
+__device__ void copy_words(const Words& from, std::size_t source, const Words& to, std::size_t i)
+{
+#pragma unroll
+    for (unsigned a = 0; a < kAtOnce; ++a)
+        if (a < from.count) to.at[a][i] = from.at[a][source];
+}
+
 struct Gather
 {
     const std::uint32_t* sources;
     Words from, to;
-    __device__ void operator()(std::size_t i) const
-    {
-        const std::uint32_t source = sources[i];
-        for (unsigned a = 0; a < from.count; ++a) to.at[a][i] = from.at[a][source];
-    }
+    __device__ void operator()(std::size_t i) const { copy_words(from, sources[i], to, i); }
 };
 
 struct PutBack
 {
     Words from, to;
+    __device__ void operator()(std::size_t i) const { copy_words(from, i, to, i); }
+};
+
+struct ClearFreeRanks
+{
+    const StepControl* control;
+    std::uint32_t* ranks;
     __device__ void operator()(std::size_t i) const
     {
-        for (unsigned a = 0; a < from.count; ++a) to.at[a][i] = from.at[a][i];
+        if (i >= control->kept) ranks[i] = kNoRank;
     }
 };
 
 /// Slot i becomes what slot sources[i] was, for i < StepControl::kept.
 void move_flakes(StreamRef stream, const StepControl* control, std::size_t capacity, const FlakeView& flakes,
-                 const std::uint32_t* sources, const std::array<std::uint32_t*, kAtOnce>& by_way_of)
+                 std::uint32_t* ranks, const std::uint32_t* sources,
+                 const std::array<std::uint32_t*, kAtOnce>& by_way_of)
 {
-    const auto arrays = flake_words(flakes);
-    for (std::size_t first = 0; first < arrays.size(); first += kAtOnce)
+    std::array<std::uint32_t*, kFlakeArrays + 1> arrays{};
+    std::ranges::copy(flake_words(flakes), arrays.begin());
+    arrays.back() = ranks;
+    const std::size_t count = arrays.size() - (ranks == nullptr ? 1 : 0);
+    for (std::size_t first = 0; first < count; first += kAtOnce)
     {
         Words home{}, away{};
-        for (std::size_t a = first; a < arrays.size() && home.count < kAtOnce; ++a)
+        for (std::size_t a = first; a < count && home.count < kAtOnce; ++a)
         {
             away.at[away.count++] = by_way_of[home.count];
             home.at[home.count++] = arrays[a];
@@ -82,6 +99,9 @@ void move_flakes(StreamRef stream, const StepControl* control, std::size_t capac
         launch_counted(stream, "gather flakes", &control->kept, capacity, Gather{sources, home, away});
         launch_counted(stream, "put back flakes", &control->kept, capacity, PutBack{away, home});
     }
+    if (ranks != nullptr)
+        launch_counted(stream, "clear free ranks", &control->closing, capacity,
+                       ClearFreeRanks{control, ranks});
 }
 
 /// Keys of all slots; those that are not in use come last, as holes do.
@@ -124,16 +144,17 @@ Rearranger::Rearranger(std::size_t capacity, Reorders reorders, int key_bits)
 }
 
 void Rearranger::close_holes(StreamRef stream, const StepControl* control, const FlakeAddresses& at,
-                             const Selection& selection) const
+                             const Selection& selection, std::uint32_t* ranks) const
 {
     const auto quarter = quarters(at.draw_list, capacity_);
     select(stream, "list living flakes", &control->closing, capacity_, selection, total_.data(),
            Alive{at.flakes.state}, NoteSource{quarter[0]});
-    move_flakes(stream, control, capacity_, at.flakes, quarter[0], {quarter[1], quarter[2], quarter[3]});
+    move_flakes(stream, control, capacity_, at.flakes, ranks, quarter[0],
+                {quarter[1], quarter[2], quarter[3]});
 }
 
 void Rearranger::reorder(StreamRef stream, const StepControl* control, const FlakeAddresses& at,
-                         const CellOrder& order) const
+                         const CellOrder& order, std::uint32_t* ranks) const
 {
     if (capacity_ == 0) return;
     const auto quarter = quarters(at.draw_list, capacity_);
@@ -143,7 +164,7 @@ void Rearranger::reorder(StreamRef stream, const StepControl* control, const Fla
     std::size_t bytes = sort_.size();
     check(sort_slots(sort_.data(), bytes, keys, slots, capacity_, key_bits_, stream.get()),
           "cub::DeviceRadixSort");
-    move_flakes(stream, control, capacity_, at.flakes, slots.Current(),
+    move_flakes(stream, control, capacity_, at.flakes, ranks, slots.Current(),
                 {slots.Alternate(), keys.Current(), keys.Alternate()});
 }
 

@@ -22,7 +22,6 @@ struct StepControl
     std::uint32_t first_id = 0;    ///< … and its serial number
     std::uint32_t closing = 0;     ///< slots whose holes are being closed; 0: there is no need
     std::uint32_t kept = 0;        ///< of these live
-    std::uint32_t renumbered = 0;  ///< how often slots changed their flakes
     std::uint32_t visible = 0;     ///< flakes of the newest draw list
     unsigned long long left = 0, landed = 0, vanished = 0;  ///< of the step at hand
 };

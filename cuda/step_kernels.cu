@@ -25,7 +25,6 @@ __device__ void close_holes(StepControl& c, bool needed)
     if (!needed) return;
     c.state.close_holes();
     c.kept = static_cast<std::uint32_t>(c.state.used);
-    ++c.renumbered;
 }
 
 struct BeginStep

@@ -38,6 +38,10 @@ struct ForEachTallied
     StepAddresses step;
     Function function;
 
+    /// 128 registers a thread: three blocks, 80 registers, would spill a hundred words a flake in the
+    /// advection.
+    static constexpr unsigned kLeastResidentBlocks = 2;
+
     __device__ void operator()() const
     {
         const std::size_t n = *count;

@@ -73,7 +73,8 @@ class CpuContender final : public SortContender
     CpuContender(SortTraits traits, std::shared_ptr<Arrays> arrays, std::size_t slots)
         : SortContender(std::move(traits)),
           strategy_(*cpu::find_sort_strategy(this->traits().strategy)),
-          arrays_(std::move(arrays))
+          arrays_(std::move(arrays)),
+          slots_(slots)
     {
         if (strategy_.network) passes_.emplace(*strategy_.network, slots);
     }
@@ -99,6 +100,11 @@ class CpuContender final : public SortContender
             });
     }
 
+    void follow(std::span<const std::uint32_t> sources) override
+    {
+        if (passes_) std::ranges::copy(moved_ranks({passes_->ranks(), slots_}, sources), passes_->ranks());
+    }
+
     std::span<const std::uint64_t> result() override { return {result_, n_}; }
 
     double copy_ms(double bytes_per_pair) override
@@ -120,6 +126,7 @@ class CpuContender final : public SortContender
   private:
     const cpu::SortStrategy& strategy_;
     std::shared_ptr<Arrays> arrays_;
+    std::size_t slots_;
     std::optional<cpu::PassSorter> passes_;
     std::size_t n_ = 0;
     const std::uint64_t* result_ = nullptr;

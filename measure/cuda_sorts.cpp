@@ -46,6 +46,7 @@ class CudaContender final : public SortContender
   public:
     CudaContender(SortTraits traits, std::shared_ptr<Arrays> arrays, std::size_t slots)
         : SortContender(std::move(traits)),
+          slots_(slots),
           sort_(
               gpu::find_sort_strategy(this->traits().strategy)->make(std::max(slots, arrays->pairs.size()))),
           arrays_(std::move(arrays))
@@ -64,6 +65,18 @@ class CudaContender final : public SortContender
         const gpu::SortJob job{
             arrays_->pairs.data(), arrays_->scratch.data(), n_, traits().key_bits, passes, start};
         return between_events([&] { result_ = sort_->sort(arrays_->stream, job); });
+    }
+
+    // by way of the host: it is not timed
+    void follow(std::span<const std::uint32_t> sources) override
+    {
+        if (sort_->ranks() == nullptr) return;
+        std::vector<std::uint32_t> ranks(slots_);
+        gpu::copy_to_host(arrays_->stream, ranks.data(), sort_->ranks(), slots_);
+        arrays_->stream.ref().wait();
+        ranks = moved_ranks(ranks, sources);
+        gpu::copy_to_device(arrays_->stream, sort_->ranks(), ranks.data(), slots_);
+        arrays_->stream.ref().wait();
     }
 
     std::span<const std::uint64_t> result() override
@@ -104,6 +117,7 @@ class CudaContender final : public SortContender
         return end_.ms_since(begin_);
     }
 
+    std::size_t slots_;
     std::unique_ptr<gpu::DeviceSort> sort_;
     std::shared_ptr<Arrays> arrays_;
     gpu::Event begin_{gpu::Event::Timing::on}, end_{gpu::Event::Timing::on};

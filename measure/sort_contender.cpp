@@ -23,6 +23,15 @@ std::vector<SortTraits> list_sorts(const WantedSorts& wanted)
     return all;
 }
 
+std::vector<std::uint32_t> moved_ranks(std::span<const std::uint32_t> ranks,
+                                       std::span<const std::uint32_t> sources)
+{
+    std::vector<std::uint32_t> moved(ranks.size(), kNoRank);
+    for (std::size_t i = 0; i < sources.size(); ++i)
+        if (sources[i] != kNoRank) moved[i] = ranks[sources[i]];
+    return moved;
+}
+
 std::vector<std::unique_ptr<SortContender>> make_contenders(const WantedSorts& wanted, std::size_t pairs,
                                                             std::size_t slots)
 {

@@ -44,6 +44,9 @@ class SortContender
     /// Milliseconds of the sort of what was loaded last; on a device between two of its events. `passes` and
     /// `start` are for sorts over frames.
     virtual double sort_ms(int passes, SortStart start) = 0;
+    /// Since the last sort flakes have got other slots: slot i stands for what slot sources[i] stood for, or
+    /// for a new flake if that is kNoRank; slots beyond are free. Only sorts over frames care.
+    virtual void follow(std::span<const std::uint32_t> /*sources*/) {}
     /// The outcome, until the next call of anything.
     virtual std::span<const std::uint64_t> result() = 0;
     /// Milliseconds of a plain copy in the same memory that reads and writes so many bytes for each pair that
@@ -72,6 +75,10 @@ std::vector<SortTraits> list_sorts(const WantedSorts& wanted);
 
 /// Why there is no CUDA device to sort on; empty if there is one.
 std::string no_cuda_because();
+
+/// Ranks by slot, moved as SortContender::follow says.
+std::vector<std::uint32_t> moved_ranks(std::span<const std::uint32_t> ranks,
+                                       std::span<const std::uint32_t> sources);
 
 /// What a radix sort with digits of 8 bits must move: all pairs read once to count, then read and written
 /// once a digit. Pairs are 8 bytes.

@@ -13,8 +13,7 @@ namespace
 {
 
 constexpr std::size_t kChunk = 16384;
-constexpr std::size_t kTile = kNetworkTile;  // several steps while the pairs lie in the first cache
-constexpr std::uint32_t kNoRank = ~0U;
+constexpr std::size_t kTile = kNetworkTile;           // several steps while the pairs lie in the first cache
 constexpr std::uint64_t kNoPair = ~std::uint64_t{0};  // no slot has this number
 
 std::size_t chunks_of(std::size_t n)

@@ -16,7 +16,6 @@ namespace spindrift::gpu
 namespace
 {
 
-constexpr std::uint32_t kNoRank = ~0U;
 constexpr std::uint64_t kNoPair = ~std::uint64_t{0};  // no slot has this number
 
 struct IsPair
@@ -121,6 +120,8 @@ class PassSort final : public DeviceSort
         return pairs;
     }
 
+    std::uint32_t* ranks() const override { return rank_.data(); }
+
   private:
     /// From job.pairs to job.scratch.
     void put_in_kept_order(StreamRef stream, const SortJob& job)
@@ -155,7 +156,7 @@ class PassSort final : public DeviceSort
     Network network_;
     NetworkWalk walk_;
     CubRadix exact_;
-    DeviceBuffer<std::uint32_t> rank_;    ///< by slot: its place in the last frame's order, or none
+    DeviceBuffer<std::uint32_t> rank_;
     DeviceBuffer<std::uint64_t> places_;  ///< pairs at their places of the last frame
     DeviceBuffer<std::uint32_t> counts_;  ///< of pairs that were kept, of new ones
     DeviceBuffer<unsigned char> working_;

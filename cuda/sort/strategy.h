@@ -35,6 +35,9 @@ class DeviceSort
     /// Queues the work and returns where the pairs will be: job.pairs or job.scratch. Neither allocates nor
     /// waits. Throws Error with what CUDA returned.
     virtual std::uint64_t* sort(StreamRef stream, const SortJob& job) = 0;
+    /// By slot, on the device: places in the order that a sort over frames keeps, or kNoRank. Whoever gives
+    /// flakes other slots takes these along. Null for sorts that keep none.
+    virtual std::uint32_t* ranks() const { return nullptr; }
 };
 
 /// A row of the table. Every exact strategy gives the permutation that the CPU's give.

@@ -22,8 +22,10 @@ enum class Pictures
 
 struct SimulationOptions
 {
-    int threads = 0;            ///< 0: one per core that this process may use
-    std::string simd = "auto";  ///< auto, scalar, avx2, avx512: the results are the same
+    /// cpu, cuda, or auto: cuda where this build and machine have it. The results are the same.
+    std::string backend = "cpu";
+    int threads = 0;            ///< of the CPU; 0: one per core that this process may use
+    std::string simd = "auto";  ///< of the CPU; auto, scalar, avx2, avx512: the results are the same
     /// Capacity instead of the scene's; bursts and rates are scaled with it.
     std::optional<std::uint64_t> particles = {};
     std::optional<std::uint64_t> seed = {};            ///< instead of the scene's
@@ -46,15 +48,17 @@ class Simulation
     /// Steps until the simulated time is at least `time_s` less one step; never backwards.
     void advance_to(double time_s);
 
+    std::string backend() const;  ///< "cpu (avx512, 2 threads)"
     double step_s() const;
     double time_s() const;
     std::uint64_t steps() const;
     FlakeCounts counts() const;
-    /// Depends on scene, seed and number of steps only; not on threads, SIMD or machine.
+    /// Depends on scene, seed and number of steps only; not on backend, threads, SIMD or machine.
     std::uint64_t state_hash() const;
 
-    /// The live arrays; slots [0, slots_used()) hold flakes, those whose Fate is not `alive` are holes. Read
-    /// between steps; metres from the lower corner of the domain, z up.
+    /// Slots [0, slots_used()) hold flakes, those whose Fate is not `alive` are holes; metres from the lower
+    /// corner of the domain, z up. On the CPU the live arrays: read them between steps. On a device a copy of
+    /// the living flakes that this call makes, which holds until the next.
     FlakeView flakes() const;
     std::size_t slots_used() const;
 

@@ -60,6 +60,7 @@ TEST_F(Embedding, BadInputIsAnError)
 {
     EXPECT_THROW(Simulation(in_folder("none.toml")), Error);
     EXPECT_THROW(Simulation(small_scene(), {.simd = "mmx"}), Error);
+    EXPECT_THROW(Simulation(small_scene(), {.backend = "gpu"}), Error);
     Simulation simulation(small_scene());
     EXPECT_THROW(simulation.draw(), Error);
     EXPECT_THROW(simulation.write_picture(in_folder("x.png")), Error);

@@ -103,7 +103,7 @@ TEST_P(DrawListOf, GoesFromFarToNear)
     }
 }
 
-TEST_P(DrawListOf, OfPassesBeginsExactGoesOnAndBeginsAnewWhenSlotsOrViewChange)
+TEST_P(DrawListOf, OfPassesBeginsExactGoesOnAndBeginsAnewWhenFlakesOrViewChange)
 {
     View v = camera();
     const auto inversions = [&](const SortSettings& settings)
@@ -120,7 +120,7 @@ TEST_P(DrawListOf, OfPassesBeginsExactGoesOnAndBeginsAnewWhenSlotsOrViewChange)
     EXPECT_LT(after_a_step, 0.2);
     const Snapshot snapshot = run->save();
     run->restore(snapshot);
-    EXPECT_EQ(inversions(two), 0) << "slots were renumbered";
+    EXPECT_EQ(inversions(two), 0) << "nobody knows which flakes were restored";
     run.steps(1);
     v.eye = v.eye - Vec3f{6, 0, 0};
     EXPECT_EQ(inversions(two), 0) << "the view jumped";

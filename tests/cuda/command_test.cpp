@@ -4,13 +4,16 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "core/error.h"
 #include "image/write.h"
+#include "spindrift/simulation.h"
 #include "tests/app/child_process.h"
 #include "tests/app/command_fixture.h"
 #include "tests/cuda/device_fixture.h"
@@ -94,6 +97,106 @@ TEST_F(CudaCommand, RefusesTilesWhichTheProcessorWouldHaveToBlend)
         EXPECT_THAT(run.error, AllOf(HasSubstr("flake_path"), HasSubstr("raster"))) << interop;
         EXPECT_EQ(std::count(run.error.begin(), run.error.end(), '\n'), 1);
     }
+}
+
+TEST_F(CudaCommand, SolvesForTheProcessorsWind)
+{
+    const std::string scene = write("house.toml", R"(
+[scene]
+name = "house"
+[domain]
+min_m = [0, 0, 0]
+max_m = [48, 32, 24]
+[particles]
+capacity = 500
+[wind]
+source = "solve"
+speed_m_s = 5
+cell_m = 2
+[[emitter]]
+shape = "box"
+min_m = [1, 1, 1]
+max_m = [10, 31, 20]
+burst = 500
+[[box]]
+min_m = [20, 14, 0]
+max_m = [30, 26, 10]
+[camera]
+[[camera.key]]
+eye_m = [0, 0, 10]
+look_at_m = [50, 50, 10]
+)");
+    std::string winds[2], hashes[2];
+    for (const int cuda : {0, 1})
+    {
+        const std::string backend = cuda == 1 ? "cuda" : "cpu", out = in_folder(backend + ".nc");
+        const Finished wind = run_command({"wind", scene, "-o", out, "--backend", backend});
+        ASSERT_EQ(wind.exit_code, 0) << wind.error;
+        EXPECT_THAT(wind.output, HasSubstr("multigrid (" + backend + ")"));
+        winds[cuda] = read(out);
+        const Finished run =
+            run_command({"run", scene, "--headless", "--steps", "20", "--hash", "--backend", backend});
+        ASSERT_EQ(run.exit_code, 0) << run.error;
+        hashes[cuda] = run.output.substr(run.output.find("hash "));
+    }
+    EXPECT_EQ(winds[1], winds[0]);
+    EXPECT_EQ(hashes[1], hashes[0]);
+}
+
+TEST_F(CudaCommand, EmbeddedItGivesTheProcessorsFlakesAndPicture)
+{
+    const SimulationOptions on_host{
+        .particles = 700, .width_px = 80, .height_px = 60, .pictures = Pictures::on};
+    SimulationOptions on_device = on_host;
+    on_device.backend = "cuda";
+    Simulation host(small_scene(), on_host), device(small_scene(), on_device);
+    EXPECT_THAT(device.backend(), HasSubstr("cuda"));
+    for (Simulation* simulation : {&host, &device})
+    {
+        simulation->advance_to(0.5);
+        simulation->draw();
+        simulation->write_picture(in_folder(simulation == &host ? "host.png" : "device.png"));
+    }
+    EXPECT_EQ(device.state_hash(), host.state_hash());
+    EXPECT_EQ(device.counts().alive, host.counts().alive);
+    EXPECT_GT(device.counts().alive, 100U);
+    const FlakeView flakes = device.flakes(), expected = host.flakes();
+    ASSERT_EQ(device.slots_used(), device.counts().alive);
+    std::map<std::uint32_t, float> height;
+    for (std::size_t i = 0; i < host.slots_used(); ++i)
+        if ((expected.state[i] & 0xFFU) == 0) height[expected.id[i]] = expected.z[i];
+    for (std::size_t i = 0; i < device.slots_used(); ++i) ASSERT_EQ(flakes.z[i], height.at(flakes.id[i]));
+    EXPECT_EQ(image::read_png(in_folder("device.png")).rgb.size(), 80U * 60 * 3);
+
+    const std::string snapshot = in_folder("s.snap");
+    device.save(snapshot);
+    device.advance_to(0.7), host.advance_to(0.7);
+    device.load(snapshot);
+    device.advance_to(0.7);
+    EXPECT_EQ(device.state_hash(), host.state_hash());
+    on_device.threads = 2;
+    EXPECT_THROW(Simulation(small_scene(), on_device), Error);
+}
+
+TEST_F(CudaCommand, StudiesSortsWithTheProcessorsInversionsAndPictures)
+{
+    const std::string file = in_folder("sorts.json");
+    const Finished run =
+        run_command({"sorts", "--scene", SPINDRIFT_SOURCE_DIR "/scenes/canyon.toml", "--frames", "3",
+                     "--particles", "3000", "--size", "160x90", "--strategies",
+                     "bitonic-passes,cub-radix,odd-even-passes", "--out", file});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    std::map<std::string, json> rows;
+    const json written = json::parse(read(file));
+    for (const json& row : written.at("rows")) rows[row.at("sort")] = row;
+    for (const std::string sort : {"bitonic-passes", "odd-even-passes"})
+        for (const char* what : {"inversion_fraction", "image_relative_l2"})
+        {
+            EXPECT_GT(rows.at(sort).at(what), 0) << sort << " " << what;
+            EXPECT_EQ(rows.at("cuda/" + sort).at(what), rows.at(sort).at(what)) << sort << " " << what;
+        }
+    EXPECT_EQ(rows.at("cuda/cub-radix").at("image_relative_l2"), 0);
+    EXPECT_GT(rows.at("cuda/cub-radix/16-bit").at("inversion_fraction"), 0);
 }
 
 TEST_F(CudaCommand, InfoNamesTheDeviceAndTheWayToGl)

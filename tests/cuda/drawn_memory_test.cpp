@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cuda/cuda_backend.h"
 #include "cuda/interop/interop_flakes.h"
 #include "cuda/interop/pinned_flakes.h"
 #include "gl/context.h"
@@ -201,6 +202,36 @@ TYPED_TEST(EveryDrawnMemory, DrawsThePictureThatTheHostsMemoryDraws)
 class InteropBuffers : public EveryDrawnMemory<InteropFlakes>
 {
 };
+
+TEST_F(InteropBuffers, AreGivenBackToGlAfterALookBetweenFrames)
+{
+    const FailingCalls calls;
+    World world;
+    world.size_m = {10, 10, 10};
+    world.capacity = 100;
+    world.emitters.emplace_back();
+    world.emitters[0].a = {5, 5, 5};
+    world.emitters[0].burst = 60;
+    InteropFlakes memory(world.capacity, calls.calls());
+    const auto backend = make_cuda_backend(world, memory, {});
+    View view;
+    view.forward = {0, 1, 0}, view.right = {1, 0, 0}, view.up = {0, 0, 1};
+    backend->step();
+    backend->close(backend->prepare(view, {}));
+    const auto is_mapped = [&] { return calls.counts().map_calls != calls.counts().unmap_calls; };
+    EXPECT_FALSE(is_mapped());
+    backend->state_hash();
+    EXPECT_FALSE(is_mapped()) << "GL would draw from mapped memory";
+    EXPECT_EQ(backend->extent().rogue, 0U);
+    const Snapshot snapshot = backend->save();
+    backend->restore(snapshot);
+    EXPECT_FALSE(is_mapped());
+    EXPECT_EQ(calls.counts().map_calls, 5);
+    backend->step();
+    backend->state_hash();
+    EXPECT_TRUE(is_mapped()) << "the frame has not come to its end yet";
+    EXPECT_EQ(calls.counts().map_calls, 6);
+}
 
 TEST_F(InteropBuffers, AreMappedTogetherAndUnregisteredBeforeGlFreesThem)
 {

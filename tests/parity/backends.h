@@ -33,6 +33,7 @@ struct Variant
 {
     std::string name;
     std::function<std::unique_ptr<BackendRun>(const World&)> make;
+    std::uint32_t reorder_every_steps = 0;
 };
 
 inline std::ostream& operator<<(std::ostream& out, const Variant& variant)

@@ -57,9 +57,11 @@ std::vector<Variant> variants()
 {
     const auto variant = [](const char* name, gpu::StepGraph graph, std::uint32_t reorder)
     {
-        return Variant{name, [=](const World& world) {
+        return Variant{name,
+                       [=](const World& world) {
                            return std::make_unique<CudaRun>(world, gpu::CudaOptions{graph, reorder});
-                       }};
+                       },
+                       reorder};
     };
     return {variant("Graph", gpu::StepGraph::on, 0), variant("KernelByKernel", gpu::StepGraph::off, 0),
             variant("GraphReorderedEverySevenSteps", gpu::StepGraph::on, 7),
