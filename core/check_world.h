@@ -38,6 +38,20 @@ inline void check_wind(const Wind& wind)
                     std::to_string(wind.cells.size()) + " of them");
     if (!(wind.cell_m.x > 0 && wind.cell_m.y > 0 && wind.cell_m.z > 0))
         throw Error("the wind grid has cells without size; they need more than 0 m along each axis");
+    double time_s = 0;
+    for (const Wind::State& state : wind.later)
+    {
+        if (!(state.time_s > time_s) || state.cells.size() != wind.cells.size())
+            throw Error("a later state of the wind needs a later time and as many cells as the first (" +
+                        std::to_string(wind.cells.size()) + "), not " + std::to_string(state.time_s) +
+                        " s and " + std::to_string(state.cells.size()));
+        time_s = state.time_s;
+    }
+    if ((wind.gusts.speed_m_s > 0 || !wind.bodies.empty()) && wind.gust_share.size() != wind.cells.size())
+        throw Error("gusts and bodies need a share for each of " + std::to_string(wind.cells.size()) +
+                    " wind cells, not " + std::to_string(wind.gust_share.size()));
+    for (const Body& body : wind.bodies)
+        if (body.path.keys.empty()) throw Error("a body has no path; give it at least one key");
 }
 
 inline void check_voxels(const World& world)

@@ -100,4 +100,25 @@ inline void spread_gradients(WindCell* cells, int nx, int ny, int nz, const Vec3
     for (std::size_t i = 0; i < gradient.size(); ++i) cells[i].gradient = gradient[i];
 }
 
+/// Every state of a wind that changes, one behind the other and with spread gradients, and their times; both
+/// empty for one that stays as it is. Mixed states keep gradients that are large enough: a mean of largest
+/// values is not less than the largest of the mean.
+inline std::vector<WindCell> spread_states(const World& world, std::vector<double>& times_s)
+{
+    std::vector<WindCell> all;
+    const Wind& wind = world.wind;
+    if (!wind.changes()) return all;
+    const auto add = [&](double time_s, const std::vector<WindCell>& cells)
+    {
+        times_s.push_back(time_s);
+        all.insert(all.end(), cells.begin(), cells.end());
+        if (wind.turbulent)
+            spread_gradients(all.data() + all.size() - cells.size(), wind.nx, wind.ny, wind.nz, wind.cell_m,
+                             world.step_s);
+    };
+    add(0, wind.cells);
+    for (const Wind::State& state : wind.later) add(state.time_s, state.cells);
+    return all;
+}
+
 }  // namespace spindrift

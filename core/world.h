@@ -100,6 +100,33 @@ enum class WindKind : std::uint32_t
     grid,
 };
 
+/// A moving point (camera or vehicle) that sky emitters follow: piecewise linear in time, held at both ends.
+struct Anchor
+{
+    struct Key
+    {
+        double time_s;
+        Vec3f position_m;
+    };
+    std::vector<Key> keys;  ///< ascending time, at least one
+};
+
+/// A vehicle whose body drags air along: a blunt box on the ground.
+struct Body
+{
+    Anchor path;     ///< of the middle of its foot
+    Vec3f size_m{};  ///< length, width, height
+};
+
+/// Gusts over a wind on a grid; docs/physics.md "Gusts".
+struct GustSettings
+{
+    float speed_m_s = 0;   ///< root mean square of each horizontal component; 0: none
+    float length_m = 100;  ///< of the longest waves
+    Vec3f carried_m_s{};   ///< velocity of the frozen pattern
+    std::uint64_t seed = 1;
+};
+
 struct Wind
 {
     WindKind kind = WindKind::uniform;
@@ -119,6 +146,22 @@ struct Wind
     Vec3f origin_m{};  ///< centre of cell (0,0,0)
     Vec3f cell_m{1, 1, 1};
     std::vector<WindCell> cells;  ///< x fastest, then y, then z
+
+    /// The grid at a later time. Between two states the records are mixed linearly; the last one holds on.
+    struct State
+    {
+        double time_s = 0;
+        std::vector<WindCell> cells;
+    };
+    std::vector<State> later;  ///< ascending times above 0; empty: the wind does not change
+
+    GustSettings gusts;
+    std::vector<Body> bodies;  ///< vehicles that drag air along
+    /// With gusts or bodies, of each cell: 0 in solids, near walls little, as the wind with height.
+    std::vector<float> gust_share;
+
+    /// Whether the grid is not the same in every step.
+    bool changes() const { return !later.empty() || gusts.speed_m_s > 0 || !bodies.empty(); }
 };
 
 /// Occupancy of space for the cell-by-cell walk. `clearance` is the Chebyshev distance in cells to the
@@ -137,17 +180,6 @@ struct Surface
 {
     Contact contact = Contact::land;
     float restitution = 0.3F;  ///< bounce: share of the normal speed that is kept, 0..1
-};
-
-/// A moving point (camera or vehicle) that sky emitters follow: piecewise linear in time, held at both ends.
-struct Anchor
-{
-    struct Key
-    {
-        double time_s;
-        Vec3f position_m;
-    };
-    std::vector<Key> keys;  ///< ascending time, at least one
 };
 
 struct World

@@ -60,6 +60,16 @@ inline void add(WorldHasher& h, const Emitter& e)
     h.all(e.at_rest_in_air, e.anchor);
 }
 
+inline void add(WorldHasher& h, const Anchor& a)
+{
+    h.add(a.keys.size());
+    for (const Anchor::Key& k : a.keys)
+    {
+        h.add(k.time_s);
+        h.add(k.position_m);
+    }
+}
+
 inline void add(WorldHasher& h, const Wind& w)
 {
     h.all(w.kind, w.turbulent);
@@ -70,6 +80,19 @@ inline void add(WorldHasher& h, const Wind& w)
     static_assert(sizeof(WindCell) == 16 * sizeof(float), "no padding");
     h.add(w.cells.size());
     h.bytes(w.cells.data(), w.cells.size() * sizeof(WindCell));
+    for (const Wind::State& state : w.later)
+    {
+        h.add(state.time_s);
+        h.bytes(state.cells.data(), state.cells.size() * sizeof(WindCell));
+    }
+    h.all(w.gusts.speed_m_s, w.gusts.length_m, w.gusts.seed);
+    h.add(w.gusts.carried_m_s);
+    h.bytes(w.gust_share.data(), w.gust_share.size() * sizeof(float));
+    for (const Body& body : w.bodies)
+    {
+        h.add(body.size_m);
+        add(h, body.path);
+    }
 }
 
 inline void add(WorldHasher& h, const VoxelGrid& v)
@@ -101,15 +124,7 @@ inline std::uint64_t world_hash(const World& w)
     add(h, w.voxels);
     h.add(w.surfaces.size());
     for (const Surface& s : w.surfaces) h.add(s);
-    for (const Anchor& a : w.anchors)
-    {
-        h.add(a.keys.size());
-        for (const Anchor::Key& k : a.keys)
-        {
-            h.add(k.time_s);
-            h.add(k.position_m);
-        }
-    }
+    for (const Anchor& a : w.anchors) add(h, a);
     return h.value();
 }
 

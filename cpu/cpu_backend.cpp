@@ -149,6 +149,7 @@ void CpuBackend::step_in_arena()
 {
     job_.step.number = static_cast<std::uint32_t>(state_.step);
     place_regions(time_of(state_.step));
+    world_.blow(state_.step);
     emit();
     place_regions(time_of(state_.step + 1));
     advect();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cpu/held_world.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "core/error.h"
 #include "core/gradient_reach.h"
 #include "cpu/huge_pages.h"
+#include "cpu/parallel.h"
 
 namespace spindrift::cpu
 {
@@ -18,6 +20,20 @@ namespace
 
 /// What packs may read behind the clearances (Voxels::clearance).
 constexpr std::size_t kGatherOverrun = 3;
+
+/// Wind cells, or columns of them, that one thread works on in a row: 256 KB.
+constexpr std::size_t kTogether = 4096;
+
+template <class Body>
+void for_parts(std::size_t n, const Body& body)
+{
+    parallel_for_each_index((n + kTogether - 1) / kTogether,
+                            [&](std::size_t part)
+                            {
+                                const std::size_t last = std::min((part + 1) * kTogether, n);
+                                for (std::size_t i = part * kTogether; i < last; ++i) body(i);
+                            });
+}
 
 /// Copies all but the wind cells, which may be large.
 World without_cells(const World& world)
@@ -34,6 +50,7 @@ World without_cells(const World& world)
     w.wind.to_x = from.to_x, w.wind.to_y = from.to_y;
     w.wind.nx = from.nx, w.wind.ny = from.ny, w.wind.nz = from.nz;
     w.wind.origin_m = from.origin_m, w.wind.cell_m = from.cell_m;
+    w.wind.gusts = from.gusts, w.wind.gust_share = from.gust_share, w.wind.bodies = from.bodies;
     return w;
 }
 
@@ -58,6 +75,38 @@ HeldWorld::HeldWorld(const World& world) : data_(without_cells(world)), near_wal
     const Wind& wind = world.wind;
     if (wind.turbulent)
         spread_gradients(static_cast<WindCell*>(p), wind.nx, wind.ny, wind.nz, wind.cell_m, world.step_s);
+    states_ = spread_states(world, times_s_);
+    if (wind.changes()) prepare_to_blow();
+}
+
+void HeldWorld::prepare_to_blow()
+{
+    const Wind& wind = data_.wind;
+    blown_ = blown_wind(wind, data_.step_s);
+    blown_.states = {states_.data(), times_s_.data(), times_s_.size(), states_.size() / times_s_.size(),
+                     static_cast<WindCell*>(cells_.get())};
+    blown_.gust_share = wind.gust_share.data();
+    if (wind.gusts.speed_m_s > 0)
+    {
+        stream_.resize((static_cast<std::size_t>(wind.nx) + 2) * (static_cast<std::size_t>(wind.ny) + 2));
+        blown_.stream_m2_s = stream_.data();
+    }
+    for (const Body& body : wind.bodies)
+        bodies_.push_back(
+            {{body.path.keys.data(), static_cast<std::uint32_t>(body.path.keys.size()), false, {}},
+             body.size_m});
+    moving_.resize(bodies_.size());
+    blown_.bodies = bodies_.data();
+    blown_.moving = moving_.data();
+}
+
+void HeldWorld::blow(std::uint64_t step)
+{
+    if (states_.empty()) return;
+    blown_.place_bodies(step);
+    for_parts(blown_.stream_points(), [&](std::size_t i) { blown_.stream(step, i); });
+    const WindMoment moment = moment_of(blown_.states, blown_.time_of(step));
+    for_parts(blown_.states.cells, [&](std::size_t i) { blown_.cell(moment, i); });
 }
 
 AdvectJob HeldWorld::job() const

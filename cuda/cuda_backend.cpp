@@ -166,6 +166,7 @@ void CudaBackend::queue_step(Behind behind)
     AdvectJob job = world_.job();
     job.flakes = at.flakes;
     begin_step(stream_, world_.step());
+    blow(stream_, world_.step());
     rearrange_.close_holes(stream_, control(), at, selection_.get(), sort_.ranks());
     emit(stream_, world_.step(), job);
     mark(0);

@@ -57,6 +57,7 @@ DeviceWorld::DeviceWorld(const World& world, const Anchors& anchors)
       regions_after_(regions_before_.size()),
       control_(std::vector<StepControl>(1))
 {
+    if (world.wind.changes()) prepare_to_blow(world);
     Solids solids = solids_view(world);
     solids.voxels.clearance = clearance_.data();
     solids.voxels.surface = surface_.data();
@@ -72,6 +73,42 @@ DeviceWorld::DeviceWorld(const World& world, const Anchors& anchors)
     step_.regions_after = regions_after_.data();
     step_.step_s = world.step_s;
     step_.capacity = world.capacity;
+}
+
+void DeviceWorld::prepare_to_blow(const World& world)
+{
+    const Wind& wind = world.wind;
+    BlownWind& blown = step_.blown;
+    blown = blown_wind(wind, world.step_s);
+    std::vector<double> times;
+    states_ = DeviceBuffer<WindCell>(spread_states(world, times));
+    times_ = DeviceBuffer<double>(times);
+    blown.states = {states_.data(), times_.data(), times_.size(), cells_.size(), cells_.data()};
+    gust_share_ = DeviceBuffer<float>(wind.gust_share);
+    blown.gust_share = gust_share_.data();
+    if (wind.gusts.speed_m_s > 0)
+    {
+        stream_ = DeviceBuffer<float>((static_cast<std::size_t>(wind.nx) + 2) *
+                                      (static_cast<std::size_t>(wind.ny) + 2));
+        blown.stream_m2_s = stream_.data();
+    }
+    std::vector<Anchor::Key> keys;
+    for (const Body& body : wind.bodies)
+        keys.insert(keys.end(), body.path.keys.begin(), body.path.keys.end());
+    body_keys_ = DeviceBuffer<Anchor::Key>(keys);
+    std::vector<BodyView> views;
+    std::size_t first = 0;
+    for (const Body& body : wind.bodies)
+    {
+        const std::size_t count = body.path.keys.size();
+        views.push_back(
+            {{body_keys_.data() + first, static_cast<std::uint32_t>(count), false, {}}, body.size_m});
+        first += count;
+    }
+    bodies_ = DeviceBuffer<BodyView>(views);
+    moving_ = DeviceBuffer<MovingBody>(views.size());
+    blown.bodies = bodies_.data();
+    blown.moving = moving_.data();
 }
 
 void DeviceWorld::place_anchors(StreamRef stream, const Anchors& anchors)

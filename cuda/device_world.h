@@ -33,9 +33,15 @@ class DeviceWorld
     void restore_control(StreamRef stream, const StepControl& control);
 
   private:
+    void prepare_to_blow(const World& world);
     std::size_t emitter_count() const { return emitters_.size(); }
 
-    DeviceBuffer<WindCell> cells_;
+    DeviceBuffer<WindCell> cells_, states_;
+    DeviceBuffer<double> times_;
+    DeviceBuffer<float> gust_share_, stream_;
+    DeviceBuffer<Anchor::Key> body_keys_;
+    DeviceBuffer<BodyView> bodies_;
+    DeviceBuffer<MovingBody> moving_;
     DeviceBuffer<std::uint8_t> clearance_, surface_;
     DeviceBuffer<Surface> surfaces_;
     DeviceBuffer<Emitter> emitters_;

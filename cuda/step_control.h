@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "core/blown_wind.h"
 #include "core/emission_ledger.h"
 #include "core/encounter.h"
 #include "core/regions.h"
@@ -35,6 +36,7 @@ struct StepAddresses
     RegionPlacer place;
     Region* regions_before = nullptr;  ///< where emission happens
     Region* regions_after = nullptr;   ///< where flakes must be at the end of the step
+    BlownWind blown;                   ///< no states: the wind stays as it is
     double step_s = 0;
     std::uint64_t capacity = 0;
 };

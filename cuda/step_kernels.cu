@@ -42,6 +42,33 @@ struct BeginStep
     }
 };
 
+struct PlaceBodies
+{
+    const StepControl* control;
+    BlownWind blown;
+
+    __device__ void operator()() const { blown.place_bodies(control->state.step); }
+};
+
+struct Stream
+{
+    const StepControl* control;
+    BlownWind blown;
+
+    __device__ void operator()(std::size_t i) const { blown.stream(control->state.step, i); }
+};
+
+struct BlowCell
+{
+    const StepControl* control;
+    BlownWind blown;
+
+    __device__ void operator()(std::size_t i) const
+    {
+        blown.cell(moment_of(blown.states, blown.time_of(control->state.step)), i);
+    }
+};
+
 struct ShareOut
 {
     StepAddresses step;
@@ -140,6 +167,15 @@ struct EndStep
 void begin_step(StreamRef stream, const StepAddresses& step)
 {
     launch_alone(stream, "begin step", BeginStep{step});
+}
+
+void blow(StreamRef stream, const StepAddresses& step)
+{
+    const BlownWind& blown = step.blown;
+    if (blown.states.count == 0) return;
+    if (blown.body_count > 0) launch_alone(stream, "place bodies", PlaceBodies{step.control, blown});
+    launch(stream, "gusts", blown.stream_points(), Stream{step.control, blown});
+    launch(stream, "blow", blown.states.cells, BlowCell{step.control, blown});
 }
 
 void emit(StreamRef stream, const StepAddresses& step, const AdvectJob& job)

@@ -13,6 +13,8 @@ namespace spindrift::gpu
 
 /// Places the regions and decides whether emission needs the holes closed (StepControl::closing).
 void begin_step(StreamRef stream, const StepAddresses& step);
+/// Brings the wind to the step; nothing for a wind that stays as it is.
+void blow(StreamRef stream, const StepAddresses& step);
 /// Shares out and makes the flakes of the step.
 void emit(StreamRef stream, const StepAddresses& step, const AdvectJob& job);
 void advect(StreamRef stream, const StepAddresses& step, const AdvectJob& job);

@@ -163,6 +163,8 @@ void describe_levels(Section& section, WindSettings& wind)
                     "is empty (no wind was measured)", "give at least one [[wind.level]]");
 }
 
+constexpr std::string_view kOnGrid = "with source = \"file\" or \"solve\", or around_solids = true";
+
 /// Keys of the grid on which the mean wind is made to flow round solids.
 void describe_wind_grid(Section& section, WindSettings& wind, const DomainSettings& domain)
 {
@@ -216,17 +218,42 @@ void describe_wind_files(Section& section, WindSettings& wind)
 {
     const bool file = wind.source == WindSource::file;
     constexpr std::string_view kWhen = "with source = \"file\"";
-    section.file({.name = "winds_file",
-                  .about = "QES-Winds *_windsWk.nc; also by --wind on the command line",
-                  .required = true,
-                  .applies = file,
-                  .applies_when = kWhen},
-                 wind.winds_file);
+    section.file(
+        {.name = "winds_file",
+         .about = "QES-Winds *_windsWk.nc or QUIC QU_velocity.dat; also by --wind on the command line; "
+                  "its time slices are mixed by time, the last one holds on",
+         .required = true,
+         .applies = file,
+         .applies_when = kWhen},
+        wind.winds_file);
     section.file({.name = "turbulence_file",
-                  .about = "QES-Winds *_turbOut.nc; also by --turbulence",
+                  .about = "QES-Winds *_turbOut.nc or QUIC QP_turbfield.dat; also by --turbulence",
                   .applies = file,
                   .applies_when = kWhen},
                  wind.turbulence_file);
+    section.flag({.name = "project",
+                  .about = "take the divergence out of the file's wind (flakes would gather where it is "
+                           "negative); false believes the file",
+                  .applies = file,
+                  .applies_when = kWhen},
+                 wind.project);
+}
+
+void describe_gusts(Section& section, WindSettings& wind)
+{
+    section.number({.name = "speed_m_s",
+                    .about = "root mean square of each horizontal component at reference_height_m",
+                    .required = true},
+                   {.min = 0, .max = 50}, wind.gust_speed_m_s);
+    section.number({.name = "length_m",
+                    .about = "of the longest waves; the shortest are an eighth of it, and walls are felt "
+                             "within a quarter of it"},
+                   {.min = 1, .max = 1e5}, wind.gust_length_m);
+    section.number({.name = "reference_height_m",
+                    .about = "above the ground; lower down gusts fall off as the logarithmic wind does"},
+                   {.min = 0.1, .max = 1000}, wind.gust_height_m);
+    section.whole({.name = "seed", .about = "the same seed gives the same gusts"},
+                  {.min = 0, .max = 9.2e18, .allowed = "0 to 9.2e18"}, wind.gust_seed);
 }
 
 void describe_wind(Section& section, WindSettings& wind, const DomainSettings& domain)
@@ -268,6 +295,11 @@ void describe_wind(Section& section, WindSettings& wind, const DomainSettings& d
                     "contradicts turbulence_file (the gusts of a wind file come from that file)",
                     "leave out one of the two");
     describe_levels(section, wind);
+    section.section({.name = "gusts",
+                     .about = "large eddies that are carried along as they are, over the mean wind",
+                     .applies = wind.on_grid(),
+                     .applies_when = kOnGrid},
+                    [&](Section& s) { describe_gusts(s, wind); });
 }
 
 }  // namespace

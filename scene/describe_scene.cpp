@@ -72,7 +72,7 @@ void describe_simulation(Section& section, std::uint32_t& reorder_every_steps)
     reorder_every_steps = static_cast<std::uint32_t>(steps);
 }
 
-void describe_vehicle(Section& section, std::vector<VehicleSettings>& vehicles)
+void describe_vehicle(Section& section, std::vector<VehicleSettings>& vehicles, const WindSettings& wind)
 {
     VehicleSettings vehicle;
     section.text(
@@ -93,6 +93,17 @@ void describe_vehicle(Section& section, std::vector<VehicleSettings>& vehicles)
                   });
     section.require(!vehicle.path.keys.empty(), "key", "is empty (the vehicle is nowhere)",
                     "give at least one [[vehicle.key]]");
+    section.triple(
+        {.name = "body_m",
+         .about = "length, width and height of a blunt body that pushes air aside and draws a wake "
+                  "after it; 0: the vehicle disturbs nothing",
+         .applies = wind.on_grid(),
+         .applies_when = "with wind.source = \"file\" or \"solve\", or wind.around_solids = true"},
+        {.min = 0, .max = 100}, vehicle.body_m);
+    const Vec3d& body = vehicle.body_m;
+    const bool none = body.x == 0 && body.y == 0 && body.z == 0;
+    section.require(none || (body.x > 0 && body.y > 0 && body.z > 0), "body_m",
+                    "has a side of 0 m (such a body has no front)", "give three sizes above 0, or none");
     vehicles.push_back(vehicle);
 }
 
@@ -130,7 +141,7 @@ void describe_scene(Section& root, Scene& scene)
                  [&](Section& s) { describe_simulation(s, scene.reorder_every_steps); });
     describe_air(root, scene);
     root.sections({.name = "vehicle", .about = "moving points that snow, models and lights may follow"},
-                  [&](Section& s) { describe_vehicle(s, scene.vehicles); });
+                  [&](Section& s) { describe_vehicle(s, scene.vehicles, scene.wind); });
     describe_emitters(root, scene);
     describe_solids(root, scene);
     describe_fog(root, scene);

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/turbulence.h"
 #include "scene/drift.h"
+#include "scene/gust_share.h"
 #include "scene/height_field.h"
 #include "scene/project_wind.h"
 #include "scene/voxelise.h"
@@ -82,7 +83,13 @@ class Builder
     {
         const auto winds = beside_scene(scene_, scene_.wind.winds_file);
         file_ = read_wind_file(winds, beside_scene(scene_, scene_.wind.turbulence_file));
-        const StaggeredWind& wind = file_->wind;
+        const StaggeredWind& wind = file_.front().wind;
+        if (const double cells = static_cast<double>(wind.size.count()) * static_cast<double>(file_.size());
+            cells > kMostFileCells)
+            throw Error(
+                fmt::format("{} holds {} time slices, {:.3g} cells ({:.1f} GB); at most {:.0f} are "
+                            "allowed",
+                            winds.string(), file_.size(), cells, cells * 64e-9, kMostFileCells));
         const double x = wind.size.nx * wind.cell_m.x, y = wind.size.ny * wind.cell_m.y;
         if (world_.size_m.x > x + 0.5 * wind.cell_m.x || world_.size_m.y > y + 0.5 * wind.cell_m.y)
             throw Error(fmt::format(
@@ -109,8 +116,8 @@ class Builder
         const auto solid = [](const Mesh& mesh) { return mesh.solid && mesh.vehicle.empty(); };
         return heights_ || !scene_.boxes.empty() ||
                std::any_of(geometry_.meshes.begin(), geometry_.meshes.end(), solid) ||
-               (file_ &&
-                std::find(file_->wind.solid.begin(), file_->wind.solid.end(), 1) != file_->wind.solid.end());
+               (!file_.empty() && std::find(file_[0].wind.solid.begin(), file_[0].wind.solid.end(), 1) !=
+                                      file_[0].wind.solid.end());
     }
 
     void fill_solids()
@@ -123,7 +130,7 @@ class Builder
             floor = [ground = static_cast<double>(world_.ground_m)](double, double) { return ground; };
         Voxeliser voxels(world_.size_m, scene_.voxel_m, floor);
         if (heights_) voxels.add_height_field(floor, surface_index(scene_.ground.surface));
-        if (file_) add_file_solids(voxels);
+        if (!file_.empty()) add_file_solids(voxels);
         for (const Mesh& mesh : geometry_.meshes)
             if (mesh.solid && mesh.vehicle.empty()) voxels.add_mesh(mesh, surface_index(mesh.surface));
         for (const BoxSettings& box : scene_.boxes)
@@ -136,7 +143,7 @@ class Builder
     /// Buildings and terrain of the wind file take the ground's surface.
     void add_file_solids(Voxeliser& voxels)
     {
-        const StaggeredWind& wind = file_->wind;
+        const StaggeredWind& wind = file_.front().wind;
         voxels.add_where(
             [&](const Vec3d& p)
             {
@@ -205,16 +212,27 @@ class Builder
         set_grid(std::move(solved), std::move(flow));
     }
 
+    /// The later slices leave their records, the first one is the wind's own.
     void set_file_wind()
+    {
+        for (std::size_t slice = file_.size(); slice-- > 0;)
+        {
+            set_slice(file_[slice]);
+            if (slice > 0) world_.wind.later.push_back({file_[slice].time_s, std::move(world_.wind.cells)});
+            file_.pop_back();
+        }
+        std::reverse(world_.wind.later.begin(), world_.wind.later.end());
+    }
+
+    void set_slice(WindSlice& slice)
     {
         const WindSettings& settings = scene_.wind;
         SolvedWind solved;
-        solved.wind = std::move(file_->wind);
-        solved.projection = project_(solved.wind);
+        solved.wind = std::move(slice.wind);
+        if (settings.project) solved.projection = project_(solved.wind);
         FlowField flow = cell_means(solved.wind, {0, 0, 0});
-        flow.stress = std::move(file_->stress);
-        flow.c0_eps = std::move(file_->c0_eps);
-        file_.reset();
+        flow.stress = std::move(slice.stress);
+        flow.c0_eps = std::move(slice.c0_eps);
         if (!settings.turbulence)
             flow.stress.clear();
         else if (flow.stress.empty())
@@ -249,11 +267,29 @@ class Builder
     void set_grid(SolvedWind solved, FlowField flow)
     {
         fill_wind_grid(flow, world_.wind);
+        blow(flow);
         if (kept_ == nullptr) return;
         if (solved.zone.empty())
             for (const std::uint8_t solid : solved.wind.solid)
                 solved.zone.push_back(solid != 0 ? WindZone::building : WindZone::fluid);
         *kept_ = {std::move(solved), std::move(flow)};
+    }
+
+    /// Gusts and vehicles over the wind of a grid.
+    void blow(const FlowField& flow)
+    {
+        const WindSettings& settings = scene_.wind;
+        Wind& wind = world_.wind;
+        wind.bodies.clear();
+        for (const VehicleSettings& vehicle : scene_.vehicles)
+            if (vehicle.body_m.x > 0) wind.bodies.push_back({local_path(vehicle), narrow(vehicle.body_m)});
+        wind.gusts.speed_m_s = static_cast<float>(settings.gust_speed_m_s);
+        wind.gusts.length_m = static_cast<float>(settings.gust_length_m);
+        wind.gusts.seed = settings.gust_seed;
+        const GustReach reach{settings.gust_length_m, settings.gust_height_m, settings.roughness_m,
+                              static_cast<double>(wind.ground_m)};
+        wind.gusts.carried_m_s = mean_at(flow, reach.ground_m + reach.reference_height_m);
+        if (wind.gusts.speed_m_s > 0 || !wind.bodies.empty()) wind.gust_share = gust_share(flow, reach);
     }
 
     /// u* from the mean speed of the highest layer, were it logarithmic.
@@ -281,6 +317,14 @@ class Builder
         world_.emitters.push_back(emitter);
     }
 
+    Anchor local_path(const VehicleSettings& vehicle) const
+    {
+        Anchor path;
+        for (const VehicleSettings::Key& key : vehicle.path.keys)
+            path.keys.push_back({key.time_s, narrow(key.position_m - scene_.domain.min_m)});
+        return path;
+    }
+
     /// One anchor for each thing that is followed.
     int anchor_index(const std::string& followed)
     {
@@ -298,8 +342,7 @@ class Builder
                                               [&](const VehicleSettings& v) { return v.name == followed; });
             if (vehicle == scene_.vehicles.end())
                 throw Error(fmt::format("a sky follows '{}', which is not a vehicle", followed));
-            for (const VehicleSettings::Key& key : vehicle->path.keys)
-                anchor.keys.push_back({key.time_s, narrow(key.position_m - scene_.domain.min_m)});
+            anchor = local_path(*vehicle);
         }
         anchor_names_.push_back(followed);
         world_.anchors.push_back(std::move(anchor));
@@ -312,7 +355,7 @@ class Builder
     GriddedWind* kept_;
     World world_;
     std::optional<HeightField> heights_;
-    std::optional<WindFile> file_;
+    std::vector<WindSlice> file_;  ///< by time; empty: no wind file, or done with
     std::vector<std::string> anchor_names_;
 };
 

@@ -23,11 +23,24 @@ class NetcdfFile
     /// Lengths of a variable's dimensions, slowest first, without a leading time dimension "t".
     std::vector<std::size_t> shape(const std::string& variable) const;
 
-    /// The first time slice, slowest dimension first; `shape` must be what the file says. Throws if a number
-    /// is not finite or larger than 1e6 (fill values are 1e36).
-    std::vector<float> read(const std::string& variable, const std::vector<std::size_t>& expected) const;
+    /// Length of the time dimension "t" of a variable; 1 for one without it.
+    std::size_t slices(const std::string& variable) const;
+
+    /// One time slice (the only one, of a variable without time), slowest dimension first; `expected` must be
+    /// what the file says. Throws if a number is not finite or larger than 1e6 (fill values are 1e36).
+    std::vector<float> read(const std::string& variable, const std::vector<std::size_t>& expected,
+                            std::size_t slice = 0) const;
+
+    /// A list of `count` finite numbers, of any size: times.
+    std::vector<double> read_times(const std::string& variable, std::size_t count) const;
 
   private:
+    struct Shape
+    {
+        std::size_t slices = 0;  ///< 0: no time dimension
+        std::vector<std::size_t> lengths;
+    };
+    Shape find_shape(const std::string& variable) const;
     int id_of(const std::string& variable) const;
     [[noreturn]] void fail(const std::string& variable, const std::string& reason) const;
 

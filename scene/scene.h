@@ -123,6 +123,17 @@ struct WindSettings
     std::filesystem::path cache_folder;  ///< empty: nothing is kept
 
     std::filesystem::path winds_file, turbulence_file;  ///< source = file; turbulence_file may be empty
+    bool project = true;  ///< source = file: make the file's wind free of divergence
+
+    double gust_speed_m_s = 0;  ///< root mean square of each horizontal component; 0: no gusts
+    double gust_length_m = 60, gust_height_m = 10;
+    std::uint64_t gust_seed = 1;
+
+    bool on_grid() const
+    {
+        return source == WindSource::file || source == WindSource::solve ||
+               (source == WindSource::logarithmic && around_solids);
+    }
 };
 
 struct EmitterSettings
@@ -233,6 +244,7 @@ struct VehicleSettings
     };
     std::string name;
     Path path;
+    Vec3d body_m{};  ///< length, width, height of what drags air along; 0: nothing does
 };
 
 enum class Blending

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/error.h"
 #include "scene/netcdf_file.h"
+#include "scene/quic_files.h"
 #include "scene/try_in_child.h"
 
 namespace spindrift::scene
@@ -15,9 +17,6 @@ namespace spindrift::scene
 
 namespace
 {
-
-/// 64 bytes a cell: 4 GB.
-constexpr double kMostCells = 1 << 26;
 
 /// One horizontal layer set of the file without its ghost layer.
 struct Layers
@@ -140,9 +139,9 @@ Frame read_frame(const NetcdfFile& file)
     const double nz = layers.even() ? static_cast<double>(layers.thickness_m.size())
                                     : std::ceil(layers.total_m / dz - 1e-6);
     if (const double cells = nz * static_cast<double>(frame.nx) * static_cast<double>(frame.ny);
-        !(cells <= kMostCells))
+        !(cells <= kMostFileCells))
         throw Error(fmt::format("{} would give {:.3g} wind cells ({:.1f} GB); at most {:.0f} are allowed",
-                                file.name(), cells, cells * 64e-9, kMostCells));
+                                file.name(), cells, cells * 64e-9, kMostFileCells));
     frame.out = {static_cast<int>(frame.nx), static_cast<int>(frame.ny), static_cast<int>(nz)};
     frame.cell_m = {spacing(file, "x"), spacing(file, "y"), dz};
     double height = 0;
@@ -179,18 +178,19 @@ void each_mixed(const std::vector<float>& from, std::size_t stride_x, std::size_
             }
 }
 
-StaggeredWind read_winds(const NetcdfFile& file, const Frame& frame)
+StaggeredWind read_winds(const NetcdfFile& file, const Frame& frame, std::size_t slice)
 {
     StaggeredWind wind(frame.out, frame.cell_m);
     const LayerMap centres(frame.centres, frame.out_centres), faces(frame.faces, frame.out_faces);
     const std::size_t nx = frame.nx, ny = frame.ny;
-    each_mixed(file.read("u", frame.face_shape()), nx + 1, ny + 1, nx + 1, ny, centres,
+    each_mixed(file.read("u", frame.face_shape(), slice), nx + 1, ny + 1, nx + 1, ny, centres,
                [&](std::size_t i, double v) { wind.u[i] = v; });
-    each_mixed(file.read("v", frame.face_shape()), nx + 1, ny + 1, nx, ny + 1, centres,
+    each_mixed(file.read("v", frame.face_shape(), slice), nx + 1, ny + 1, nx, ny + 1, centres,
                [&](std::size_t i, double v) { wind.v[i] = v; });
-    each_mixed(file.read("w", frame.face_shape()), nx + 1, ny + 1, nx, ny, faces,
+    each_mixed(file.read("w", frame.face_shape(), slice), nx + 1, ny + 1, nx, ny, faces,
                [&](std::size_t i, double v) { wind.w[i] = v; });
-    const std::vector<float> flags = file.read("icellflag", frame.cell_shape());
+    const std::vector<float> flags =
+        file.read("icellflag", frame.cell_shape(), std::min(slice, file.slices("icellflag") - 1));
     std::size_t i = 0;
     for (std::size_t k = 0; k < centres.count(); ++k)
         for (std::size_t column = 0; column < nx * ny; ++column, ++i)
@@ -201,14 +201,16 @@ StaggeredWind read_winds(const NetcdfFile& file, const Frame& frame)
     return wind;
 }
 
-void read_turbulence(const NetcdfFile& file, const Frame& frame, WindFile& out)
+/// A turbulence file of one slice holds for all times.
+void read_turbulence(const NetcdfFile& file, const Frame& frame, std::size_t slice, WindSlice& out)
 {
     const LayerMap centres(frame.centres, frame.out_centres);
     out.stress.assign(frame.out.count(), {});
     out.c0_eps.assign(frame.out.count(), 0);
     const auto read = [&](const char* name, auto put)
     {
-        each_mixed(file.read(name, frame.cell_shape()), frame.nx, frame.ny, frame.nx, frame.ny, centres,
+        each_mixed(file.read(name, frame.cell_shape(), std::min(slice, file.slices(name) - 1)), frame.nx,
+                   frame.ny, frame.nx, frame.ny, centres,
                    [&](std::size_t i, double v) { put(i, static_cast<float>(v)); });
     };
     read("txx", [&](std::size_t i, float v) { out.stress[i].xx = v; });
@@ -223,20 +225,50 @@ void read_turbulence(const NetcdfFile& file, const Frame& frame, WindFile& out)
 /// Reading takes seconds at most; a broken file may send HDF5 round in circles.
 constexpr unsigned kLongestRead_s = 300;
 
-WindFile read_both(const std::filesystem::path& winds, const std::filesystem::path& turbulence)
+/// Times of the file's slices, from 0.
+std::vector<double> read_times(const NetcdfFile& file)
+{
+    const std::size_t count = file.slices("u");
+    if (count == 1) return {0};
+    std::vector<double> times = file.read_times("t", count);
+    const double first = times[0];
+    for (double& time : times) time -= first;
+    return times;
+}
+
+std::vector<WindSlice> read_both(const std::filesystem::path& winds, const std::filesystem::path& turbulence)
 {
     const NetcdfFile file(winds);
     const Frame frame = read_frame(file);
-    WindFile result;
-    result.wind = read_winds(file, frame);
-    if (!turbulence.empty()) read_turbulence(NetcdfFile(turbulence), frame, result);
-    return result;
+    std::optional<NetcdfFile> gusts;
+    if (!turbulence.empty())
+    {
+        gusts.emplace(turbulence);
+        if (const std::size_t n = gusts->slices("txx"); n != 1 && n != file.slices("u"))
+            throw Error(fmt::format("{} has {} time slices, but {} has {}", turbulence.string(), n,
+                                    winds.string(), file.slices("u")));
+    }
+    std::vector<WindSlice> slices;
+    for (const double time : read_times(file))
+    {
+        const std::size_t number = slices.size();
+        WindSlice& slice = slices.emplace_back();
+        slice.time_s = time;
+        slice.wind = read_winds(file, frame, number);
+        if (slice.wind.solid != slices[0].wind.solid)
+            throw Error(fmt::format("{}: its solid cells (icellflag) change with time; flakes need one world",
+                                    winds.string()));
+        if (gusts) read_turbulence(*gusts, frame, number, slice);
+    }
+    return slices;
 }
 
 }  // namespace
 
-WindFile read_wind_file(const std::filesystem::path& winds, const std::filesystem::path& turbulence)
+std::vector<WindSlice> read_wind_file(const std::filesystem::path& winds,
+                                      const std::filesystem::path& turbulence)
 {
+    if (winds.extension() == ".dat") return read_quic_files(winds, turbulence);
     if (try_in_child([&] { read_both(winds, turbulence); }, kLongestRead_s) != ChildFate::returned)
         throw Error(fmt::format(
             "{}{}{} cannot be read: broken so that the NetCDF library fails on it; write it again",

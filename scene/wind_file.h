@@ -2,26 +2,21 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
-#include "core/staggered_wind.h"
-#include "scene/flow_field.h"
+#include "scene/wind_slice.h"
 
 namespace spindrift::scene
 {
 
-/// What a pair of files of QES-Winds says: the lowest corner of its fluid layers is the lowest corner of the
-/// domain.
-struct WindFile
-{
-    StaggeredWind wind;                 ///< as in the file; buildings and terrain are solid
-    std::vector<Stress<float>> stress;  ///< as in the file, cell-centred; empty without a turbulence file
-    std::vector<float> c0_eps;
-};
-
-/// Reads the first time slice of *_windsWk.nc (face-centred, one ghost layer of cells under the ground, which
-/// is left out) and, if named, of *_turbOut.nc. Layers of unequal thickness are interpolated to the thinnest.
+/// Reads every time slice of a wind model's files, at least one, in the order of time:
+///  - *_windsWk.nc of QES-Winds (face-centred, one ghost layer of cells under the ground, which is left out)
+///    and, if named, *_turbOut.nc. Layers of unequal thickness are interpolated to the thinnest;
+///  - the text files of QUIC, where `winds` ends in .dat (scene/quic_files.h).
 /// Throws Error with file, variable and reason: missing, not NetCDF, cut off, a variable missing or of the
-/// wrong shape, numbers that are not finite, cells that are not regular.
-WindFile read_wind_file(const std::filesystem::path& winds, const std::filesystem::path& turbulence);
+/// wrong shape, numbers that are not finite, cells that are not regular, times that do not rise, solids that
+/// change with time.
+std::vector<WindSlice> read_wind_file(const std::filesystem::path& winds,
+                                      const std::filesystem::path& turbulence);
 
 }  // namespace spindrift::scene

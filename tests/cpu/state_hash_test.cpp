@@ -42,6 +42,20 @@ TEST(StateHash, IsTheSameForEveryInstructionSet)
     }
 }
 
+TEST(StateHash, IsTheSameForAnyThreadsAndInstructionSetInAWindThatChanges)
+{
+    const World world = world_with_changing_wind(kCapacity);
+    const std::uint64_t scalar = hash_after(world, {1, Simd::scalar});
+    for (const Simd simd : available_simd())
+        EXPECT_EQ(scalar, hash_after(world, {3, simd})) << simd_name(simd);
+    TestRun first(world);
+    first.steps(40);  // in the middle of the first change
+    TestRun second(world);
+    second->restore(first->save());
+    second.steps(kSteps - 40);
+    EXPECT_EQ(scalar, second->state_hash()) << "a snapshot finds its wind again";
+}
+
 TEST(StateHash, IsTheSameForEveryInstructionSetInAnalyticWinds)
 {
     for (const WindKind kind : {WindKind::uniform, WindKind::logarithmic})

@@ -148,6 +148,23 @@ World world_with_everything(std::uint64_t capacity, OnLeave on_leave, bool turbu
     return w;
 }
 
+World world_with_changing_wind(std::uint64_t capacity)
+{
+    World w = world_with_everything(capacity, OnLeave::respawn, true);
+    for (const auto& [time_s, share] : {std::pair{1.0, -1.0F}, {1.7, 0.5F}})
+    {
+        Wind::State state{time_s, w.wind.cells};
+        for (WindCell& c : state.cells) c.u *= share, c.v *= share, c.w *= share;
+        w.wind.later.push_back(std::move(state));
+    }
+    w.wind.gusts = {2.5F, 20, {4, 1, 0}, 77};
+    w.wind.gust_share.assign(w.wind.cells.size(), 0.8F);
+    w.wind.gust_share[5] = 0;
+    w.wind.bodies = {{{{{0.0, {5, 15, 0.5F}}, {2.0, {35, 18, 0.5F}}}}, {6, 2.5F, 3}},
+                     {{{{0.0, {30, 5, 0.5F}}}}, {4, 2, 2}}};
+    return w;
+}
+
 TestRun::TestRun(const World& world, CpuOptions options)
     : memory(world.capacity),
       flakes(memory.flakes()),

@@ -27,6 +27,10 @@ WindCell isotropic(float sigma_m_s, float rate_per_s);
 /// land, bounce and swallow, every kind of emitter, a sky that moves.
 World world_with_everything(std::uint64_t capacity, OnLeave on_leave, bool turbulent);
 
+/// The same in a wind that turns round within a second, falls to half and then holds on, with gusts, a
+/// vehicle and one that stands.
+World world_with_changing_wind(std::uint64_t capacity);
+
 /// A backend with its own memory.
 struct TestRun
 {

@@ -117,6 +117,11 @@ TEST_P(EveryBackend, MovesFlakesAsTheOracleDoesInAnalyticWinds)
 }
 
 /// Room for so many flakes: at the ends of warps, blocks and tiles.
+TEST_P(EveryBackend, MovesFlakesAsTheOracleDoesInAWindThatChanges)
+{
+    expect_parity(cpu::test::world_with_changing_wind(3000), 60, 20);
+}
+
 TEST_P(EveryBackend, HoldsAtEverySize)
 {
     for (const std::uint64_t capacity :

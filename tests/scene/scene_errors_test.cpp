@@ -263,7 +263,9 @@ TEST(SceneErrors, MissingKeysAndTables)
          "s.toml:9: wind.speed_m_s is missing (speed along the ground, at reference_height_m in a log wind); "
          "use 0 to 150"},
         {with("[wind]\nsource = \"file\"\n"),
-         "s.toml:9: wind.winds_file is missing (QES-Winds *_windsWk.nc; also by --wind on the command line); "
+         "s.toml:9: wind.winds_file is missing (QES-Winds *_windsWk.nc or QUIC QU_velocity.dat; also by "
+         "--wind on the command line; its time "
+         "slices are mixed by time, the last one holds on); "
          "use the path of a "
          "file, absolute or from the scene's folder"},
         {with("[ground]\nkind = \"height-field\"\n"),

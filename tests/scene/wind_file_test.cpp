@@ -29,6 +29,8 @@ struct SmallWind
     std::string left_out;  ///< a variable that is not written
     std::string broken;    ///< a variable that gets a NaN
     bool dz_array = true;
+    bool falling_times = false;
+    bool growing_building = false;  ///< in the later slices
 
     static double u(std::size_t slice, double x, double z)
     {
@@ -75,6 +77,10 @@ struct SmallWind
         put("y", {"y"}, y);
         put("z", {"z"}, z);
         if (dz_array) put("dz_array", {"z"}, thickness);
+        std::vector<float> times;
+        for (std::size_t t = 0; t < slices; ++t)
+            times.push_back(falling_times ? 5.0F : 100 + 10 * static_cast<float>(t));
+        put("t", {"t"}, times);
         std::vector<float> u, zero, flag;
         for (std::size_t t = 0; t < slices; ++t)
         {
@@ -92,6 +98,7 @@ struct SmallWind
                         flag.push_back(k == 0                       ? 2.0F
                                        : k == 1 && i == 2 && j == 1 ? 0.0F
                                        : k == 2 && i == 0 && j == 0 ? 2.0F
+                                       : growing_building && t > 0  ? 0.0F
                                                                     : 4.0F);
         }
         const std::vector<std::string> faces{"t", "z_face", "y_face", "x_face"};
@@ -130,7 +137,12 @@ struct SmallWind
 class WindFileTest : public ::testing::Test
 {
   protected:
-    WindFile read(const SmallWind& small, bool turbulence = false)
+    WindSlice read(const SmallWind& small, bool turbulence = false)
+    {
+        return read_all(small, turbulence).at(0);
+    }
+
+    std::vector<WindSlice> read_all(const SmallWind& small, bool turbulence = false)
     {
         small.write_winds(folder / "w.nc");
         if (turbulence) small.write_turbulence(folder / "t.nc");
@@ -155,7 +167,7 @@ class WindFileTest : public ::testing::Test
 
 TEST_F(WindFileTest, ReadsFacesWithoutGhostLayerAndPadding)
 {
-    const WindFile file = read(SmallWind{});
+    const WindSlice file = read(SmallWind{});
     EXPECT_EQ(file.wind.size.nx, 4);
     EXPECT_EQ(file.wind.size.ny, 3);
     EXPECT_EQ(file.wind.size.nz, 5);
@@ -170,17 +182,38 @@ TEST_F(WindFileTest, ReadsFacesWithoutGhostLayerAndPadding)
     EXPECT_TRUE(file.stress.empty());
 }
 
-TEST_F(WindFileTest, ReadsTheFirstOfSeveralTimes)
+TEST_F(WindFileTest, ReadsEveryTimeSlice)
 {
     SmallWind small;
     small.slices = 3;
-    const WindFile file = read(small);
-    EXPECT_NEAR(file.wind.u[0], SmallWind::u(0, 0, 1), 1e-5);
+    const std::vector<WindSlice> slices = read_all(small, true);
+    ASSERT_EQ(slices.size(), 3U);
+    for (std::size_t t = 0; t < 3; ++t)
+    {
+        EXPECT_DOUBLE_EQ(slices[t].time_s, 10.0 * static_cast<double>(t)) << "counted from the first";
+        EXPECT_NEAR(slices[t].wind.u[0], SmallWind::u(t, 0, 1), 1e-4);
+        ASSERT_EQ(slices[t].stress.size(), 60U) << "turbulence of one slice holds for all";
+        EXPECT_FLOAT_EQ(slices[t].stress[0].xx, 'x' + 1);
+    }
+}
+
+TEST_F(WindFileTest, RefusesTimesThatDoNotRiseAndSolidsThatChange)
+{
+    SmallWind small;
+    small.slices = 2;
+    small.falling_times = true;
+    EXPECT_THAT(error_of(small), HasSubstr("'t' has 5 as time 1"));
+    small.falling_times = false;
+    small.growing_building = true;
+    EXPECT_THAT(error_of(small), HasSubstr("solid cells (icellflag) change"));
+    small.growing_building = false;
+    small.left_out = "t";
+    EXPECT_THAT(error_of(small), HasSubstr("'t' is missing"));
 }
 
 TEST_F(WindFileTest, ReadsStressesAboveTheGhostLayer)
 {
-    const WindFile file = read(SmallWind{}, true);
+    const WindSlice file = read(SmallWind{}, true);
     ASSERT_EQ(file.stress.size(), 60U);
     EXPECT_FLOAT_EQ(file.stress[0].xx, 'x' + 1);
     EXPECT_FLOAT_EQ(file.stress[0].yz, 'y' + 1);
@@ -194,7 +227,7 @@ TEST_F(WindFileTest, BringsUnevenLayersToTheThinnest)
     for (const bool dz_array : {true, false})
     {
         small.dz_array = dz_array;
-        const WindFile file = read(small);
+        const WindSlice file = read(small);
         EXPECT_EQ(file.wind.size.nz, 10);
         EXPECT_NEAR(file.wind.cell_m.z, 1, 1e-6);
         for (int k = 0; k < 8; ++k)  // the highest centre of the file is at 8 m
@@ -275,7 +308,7 @@ TEST(RealWindFile, IsFreeOfDivergenceAfterwards)
     const auto winds = optional_data("qes/TwoBuildings_windsWk.nc");
     if (winds.empty())
         GTEST_SKIP() << "no qes/TwoBuildings_windsWk.nc: set SPINDRIFT_TEST_DATA to a folder that holds it";
-    WindFile file = read_wind_file(winds, {});
+    WindSlice file = std::move(read_wind_file(winds, {})[0]);
     const Vec3f before = file.wind.centre(60, 22, 20);
     const Projection done = cpu::make_divergence_free(file.wind);
     EXPECT_GT(done.before_per_s, 0.1) << "the file's own";

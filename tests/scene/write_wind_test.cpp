@@ -31,7 +31,7 @@ TEST(WriteWind, IsReadBackAsWindsAndAsTurbulence)
     const TemporaryFolder folder;
     const GriddedWind wind = solved_wind();
     write_wind(folder / "new/wind.nc", wind, {0, 0, 0});
-    const WindFile read = read_wind_file(folder / "new/wind.nc", folder / "new/wind.nc");
+    const WindSlice read = read_wind_file(folder / "new/wind.nc", folder / "new/wind.nc")[0];
     const StaggeredWind& faces = wind.solved.wind;
     EXPECT_EQ(read.wind.size.nx, 12);
     EXPECT_EQ(read.wind.size.nz, 8);
