@@ -44,6 +44,41 @@ inline void spread_maximum(std::vector<float>& values, std::size_t before, std::
 
 }  // namespace detail
 
+namespace detail
+{
+
+/// The most that gusts and vehicles add to the wind of a grid, m/s: three times the root mean square of gusts
+/// where they are strongest, and the fastest vehicle.
+inline float fastest_disturbance(const Wind& wind)
+{
+    float fastest = 0;
+    for (const Body& body : wind.bodies)
+        for (std::size_t k = 1; k < body.path.keys.size(); ++k)
+        {
+            const Anchor::Key &a = body.path.keys[k - 1], &b = body.path.keys[k];
+            const float dx = b.position_m.x - a.position_m.x, dy = b.position_m.y - a.position_m.y;
+            fastest = std::max(fastest, sqrt(dx * dx + dy * dy) / static_cast<float>(b.time_s - a.time_s));
+        }
+    float share = 0;
+    for (const float s : wind.gust_share) share = std::max(share, s);
+    return fastest + 3 * wind.gusts.speed_m_s * share;
+}
+
+inline float fastest_air(const std::vector<WindCell>& cells, bool turbulent)
+{
+    float fastest = 0;
+    for (const WindCell& c : cells)
+    {
+        const float variance = std::max(
+            {c.s11 * c.s11, c.s21 * c.s21 + c.s22 * c.s22, c.s31 * c.s31 + c.s32 * c.s32 + c.s33 * c.s33});
+        fastest = std::max(
+            fastest, std::max({abs(c.u), abs(c.v), abs(c.w)}) + (turbulent ? 3 * sqrt(variance) : 0.0F));
+    }
+    return fastest;
+}
+
+}  // namespace detail
+
 /// Whether air of this World may carry a flake farther in a step than a cell of the solids is wide: at its
 /// largest speed and three times its largest sigma.
 inline bool steps_reach_walls(const World& world)
@@ -61,12 +96,12 @@ inline bool steps_reach_walls(const World& world)
         fastest = size(wind.uniform_m_s.x, wind.uniform_m_s.y, wind.uniform_m_s.z) + gusts;
     if (wind.kind == WindKind::logarithmic) fastest = logarithmic + gusts;
     if (wind.kind == WindKind::grid)
-        for (const WindCell& c : wind.cells)
-        {
-            const float variance = std::max({c.s11 * c.s11, c.s21 * c.s21 + c.s22 * c.s22,
-                                             c.s31 * c.s31 + c.s32 * c.s32 + c.s33 * c.s33});
-            fastest = std::max(fastest, size(c.u, c.v, c.w) + (wind.turbulent ? 3 * sqrt(variance) : 0.0F));
-        }
+    {
+        fastest = detail::fastest_air(wind.cells, wind.turbulent);
+        for (const Wind::State& state : wind.later)
+            fastest = std::max(fastest, detail::fastest_air(state.cells, wind.turbulent));
+        fastest += detail::fastest_disturbance(wind);
+    }
     return static_cast<double>(fastest) * world.step_s > static_cast<double>(world.voxels.cell_m);
 }
 
