@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "core/grid_size.h"
+#include "core/math.h"
 #include "core/poisson.h"
 
 namespace spindrift
@@ -75,7 +75,7 @@ inline std::vector<float> toward_neighbours(const std::vector<double>& fine,
     {
         const int j = i >> 1, upper = i & 1;
         const double off = low + 0.5 * fine[i] - (coarse_low + 0.5 * coarse[j]);
-        toward[i + 2] = static_cast<float>(std::abs(off) / distance_m(coarse, j + upper));
+        toward[i + 2] = static_cast<float>(abs(off) / distance_m(coarse, j + upper));
         low += fine[i];
         if (upper != 0) coarse_low += coarse[j];
     }
@@ -85,7 +85,7 @@ inline std::vector<float> toward_neighbours(const std::vector<double>& fine,
 /// Halves what has the shortest cells; false: nothing is left to halve.
 inline bool choose_axes(PoissonLevel& level)
 {
-    double mean[3] = {}, shortest = INFINITY;
+    double mean[3] = {}, shortest = infinity<double>();
     for (int a = 0; a < 3; ++a)
     {
         double sum = 0;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
 #include <functional>
 #include <memory>
 #include <vector>
 
+#include "core/number.h"
 #include "core/poisson_levels.h"
 
 namespace spindrift
@@ -50,7 +50,7 @@ class PoissonSolver
     /// b: outflow of each cell (its integral, not per volume); zero in the border and in walls. x: any size.
     PoissonResult solve(const std::vector<double>& b, std::vector<double>& x, const PoissonSettings& settings)
     {
-        const double size_of_b = std::sqrt(begin(b));
+        const double size_of_b = sqrt(begin(b));
         PoissonResult result{0, 0, true};
         if (size_of_b > 0)
             result = settings.method == PoissonMethod::multigrid ? conjugate_gradients(settings, size_of_b)
@@ -90,7 +90,7 @@ class PoissonSolver
             const double curvature = turn(beta);
             if (!(curvature > 0)) break;
             const double rr = advance(rz / curvature);
-            if (look(settings, std::sqrt(rr) / size_of_b, 1, result)) break;
+            if (look(settings, sqrt(rr) / size_of_b, 1, result)) break;
             const double next = precondition(scale);
             beta = next / rz;
             rz = next;
@@ -104,7 +104,7 @@ class PoissonSolver
         while (result.iterations < settings.most_iterations)
         {
             const double rr = sweep(kSweepsPerLook, settings.over_relaxation);
-            if (look(settings, std::sqrt(rr) / size_of_b, kSweepsPerLook, result)) break;
+            if (look(settings, sqrt(rr) / size_of_b, kSweepsPerLook, result)) break;
         }
         return result;
     }

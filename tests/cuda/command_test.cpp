@@ -16,6 +16,7 @@
 #include "spindrift/simulation.h"
 #include "tests/app/child_process.h"
 #include "tests/app/command_fixture.h"
+#include "tests/app/solved_house.h"
 #include "tests/cuda/device_fixture.h"
 
 namespace spindrift::test
@@ -101,31 +102,10 @@ TEST_F(CudaCommand, RefusesTilesWhichTheProcessorWouldHaveToBlend)
 
 TEST_F(CudaCommand, SolvesForTheProcessorsWind)
 {
-    const std::string scene = write("house.toml", R"(
-[scene]
-name = "house"
-[domain]
-min_m = [0, 0, 0]
-max_m = [48, 32, 24]
-[particles]
-capacity = 500
-[wind]
-source = "solve"
-speed_m_s = 5
-cell_m = 2
-[[emitter]]
-shape = "box"
-min_m = [1, 1, 1]
-max_m = [10, 31, 20]
-burst = 500
-[[box]]
-min_m = [20, 14, 0]
-max_m = [30, 26, 10]
-[camera]
-[[camera.key]]
-eye_m = [0, 0, 10]
-look_at_m = [50, 50, 10]
-)");
+    std::string text = kHouse;
+    const std::string kept = "cache_folder = \"kept\"\n";
+    text.erase(text.find(kept), kept.size());
+    const std::string scene = write("house.toml", text);
     std::string winds[2], hashes[2];
     for (const int cuda : {0, 1})
     {
