@@ -58,6 +58,7 @@ SPINDRIFT_HD LitFlakes light_flakes(const SplatJob& job, const Vec3<Real>& place
         LampLight<Real> light = lamp_light(lamp, place);
         if (job.air.thick)
             light.irradiance = light.irradiance * reaching(in_every_lane(job.air.layers), lamp, place);
+        if (i < job.shadows.lamps) light.irradiance = light.irradiance * lit_share(job.shadows, i, place);
         sum.lamps = sum.lamps + scattered(light, lamp.phase, to_eye);
         sum.towards = sum.towards + light.towards * luminance(light.irradiance);
     }
@@ -85,10 +86,15 @@ SPINDRIFT_HD SeenLight see_through_air(const SplatJob& job, const Vec3<Real>& wa
     for (std::size_t i = 0; i < job.lamp_count; ++i)
     {
         const Lamp<Real> lamp = in_every_lane(job.lamps[i]);
+        const auto reach = [&](const Vec3<Real>& place) { return lit_share(job.shadows, i, place); };
         if (lamp.kind == LampKind::directional)
-            even = even + lamp.intensity * scattered_share(lamp.phase, -dot(lamp.direction, way));
+        {
+            const Real share = i < job.shadows.lamps ? share_in_fog(path, distance_m, reach) : Real(1);
+            even = even + lamp.intensity * (share * scattered_share(lamp.phase, -dot(lamp.direction, way)));
+        }
         else if (job.air.glows)
-            glow = glow + airlight_to(path, lamp, distance_m);
+            glow = glow + (i < job.shadows.lamps ? airlight_to(path, lamp, distance_m, reach)
+                                                 : airlight_to(path, lamp, distance_m));
     }
     return {clear, ambient * clear + even * (Real(1) - clear) + glow};
 }

@@ -68,10 +68,15 @@ Phase<float> phase_of(const scene::Light& light)
 
 Lamp<float> lamp_of(const scene::Light& light, const Vec3f& position_m)
 {
-    return {scene::lamp_kind(light.kind),      position_m,
-            to_float(light.direction),         {light.intensity.r, light.intensity.g, light.intensity.b},
-            static_cast<float>(light.range_m), cosine_deg(light.inner_cone_deg),
-            cosine_deg(light.outer_cone_deg),  phase_of(light)};
+    return {scene::lamp_kind(light.kind),
+            position_m,
+            to_float(light.direction),
+            {light.intensity.r, light.intensity.g, light.intensity.b},
+            static_cast<float>(light.range_m),
+            cosine_deg(light.inner_cone_deg),
+            cosine_deg(light.outer_cone_deg),
+            phase_of(light),
+            light.shadow};
 }
 
 }  // namespace
@@ -135,6 +140,8 @@ ActiveLights active_lights(const scene::Scene& scene, std::span<const scene::Lig
     };
     for (const scene::Light& light : scene.lights) consider(light);
     for (const scene::Light& light : model_lights) consider(light);
+    std::stable_partition(active.lamps.begin(), active.lamps.end(),
+                          [](const Lamp<float>& lamp) { return lamp.casts_shadow; });
     if (scene.render.scattering == scene::Scattering::legacy)
         for (Lamp<float>& lamp : active.lamps) lamp.phase = turned_round(lamp.phase);
     return active;

@@ -33,6 +33,7 @@ enum Binding : unsigned
     kExposure = 2,
     kBloomCommand = 3,
     kAirBlock = 4,
+    kShadowBlock = 5,
     kXArray = 0,
     kYArray = 1,
     kZArray = 2,
@@ -45,6 +46,8 @@ enum Binding : unsigned
     kSceneDepth = 0,
     kMasks = 1,
     kDepthTiles = 2,
+    kShadowMaps = 3,
+    kSnowDepths = 4,
 };
 
 }  // namespace spindrift::gl

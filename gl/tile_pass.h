@@ -31,6 +31,7 @@ class TilePass
         const std::vector<Lamp<float>>& lamps;
         Vec3f ambient;  ///< of flakes
         SplatAir air;
+        LampShadows shadows;
         double time_s;
     };
     /// The light alone, into picture.linear.

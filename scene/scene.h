@@ -196,6 +196,15 @@ struct Light
     double g_back = -0.3;     ///< double_lobe: of the second lobe
     double back_share = 0.1;  ///< double_lobe: share of the light that it takes
     std::string vehicle;      ///< not empty: position and direction are relative to it
+    bool shadow = false;      ///< what stands in its way casts one; not for points
+};
+
+/// Of the lights that cast shadows.
+struct ShadowSettings
+{
+    int map_px = 1024;    ///< edge of the map of what the scene hides
+    int snow_slices = 0;  ///< in which flakes dim the light on its way; 0: they do not
+    int snow_px = 128;    ///< edge of a slice
 };
 
 struct SkySettings
@@ -320,6 +329,7 @@ struct Scene
     std::vector<ModelSettings> models;
     double voxel_m = 1;
     std::vector<Light> lights;
+    ShadowSettings shadows;
     SkySettings sky;
     CameraSettings camera;
     std::vector<VehicleSettings> vehicles;

@@ -42,6 +42,7 @@ vec3 scattered(vec3 p, vec3 to_eye, out vec3 towards)
 #ifdef AIR
         if (lights[i].place.w != 0.0) e *= reaching(lights[i].place.xyz, p);
 #endif
+        e *= lit_share(i, p);
         float mu = clamp(-dot(to_light, to_eye), -1.0, 1.0);
         sum += e * phase(lights[i], mu);
         towards += to_light * dot(e, vec3(0.2126, 0.7152, 0.0722));
@@ -84,7 +85,7 @@ void see_through_air(vec3 way, float distance_m, inout vec3 lit, inout vec3 ambi
     lit *= clear;
     ambient *= clear;
 #ifndef ADDITIVE
-    ambient += even_light(way) * (1.0 - clear);
+    ambient += even_light(path, distance_m) * (1.0 - clear);
 #ifdef GLOW
     ambient += lamp_glow(path, distance_m);
 #endif

@@ -16,6 +16,6 @@ void main()
     colour = vec4(min(lamp_glow(path, to), 6e4), 1.0);
 #else
     float clear = clear_share(path, to);
-    colour = vec4(min(even_light(path.way), 6e4) * (1.0 - clear), clear);
+    colour = vec4(min(even_light(path, to), 6e4) * (1.0 - clear), clear);
 #endif
 }

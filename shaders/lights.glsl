@@ -28,6 +28,12 @@ Light seen_from(Light light, vec3 eye)
 
 const float kNearestLight = 0.05;  // m
 
+#ifdef SHADOWS
+#include "shadow.glsl"
+#else
+float lit_share(uint light, vec3 p) { return 1.0; }
+#endif
+
 // Irradiance of light i at p on a surface that faces it; to_light is the unit vector towards it.
 vec3 irradiance(Light light, vec3 p, out vec3 to_light)
 {

@@ -26,6 +26,9 @@ void main()
 #ifdef AIR
         if (lamp.place.w != 0.0) e *= reaching(lamp.place.xyz + eye_time.xyz, place + eye_time.xyz);
 #endif
+#ifdef SHADOWS
+        e *= lit_share(i, place + eye_time.xyz, n);
+#endif
         float facing = max(dot(n, to_light), 0.0);
         lit += e * (facing * 0.318309886);
 #ifdef SHINY

@@ -63,6 +63,7 @@ GlPicture draw_with_gl(SmallScene& small)
     DrawList list;
     list.count = count;
     list.sorted = true;
+    list.slots = count;
 
     gl::FrameStats stats;
     stats.counts.emitted = stats.counts.alive = count;

@@ -125,6 +125,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Golden,
                                                           Showing{"canyon", 20'000, 320, 180, 8},
                                                           Showing{"sheet", 4'000, 320, 180, 4},
                                                           Showing{"calm", 4'000, 320, 180, 1},
+                                                          Showing{"whiteout", 20'000, 320, 180, 1},
                                                           // Half floats round lamps of 60 by 0.03.
                                                           Showing{"night", 20'000, 320, 180, 4, 1e-3}),
                                           testing::Values(scene::FlakePath::raster, scene::FlakePath::tiles)),
