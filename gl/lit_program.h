@@ -22,8 +22,10 @@ class LitProgram
 
     GLuint for_lights(std::size_t count) const;
 
-  private:
+    /// More lights than this are read from a buffer, each where it counts (LampClusters).
     static constexpr std::size_t kMostUnrolled = 8;
+
+  private:
     std::array<std::string_view, 2> files_;
     std::vector<std::string_view> defines_;
     mutable std::array<Program, kMostUnrolled + 2> variants_;  // the last one takes any number

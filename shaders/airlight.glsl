@@ -85,20 +85,28 @@ vec3 airlight_to(Light light, AirPath path, float to)
     return sum;
 }
 
-// Light that is the same along the whole way: ambient and directional.
-vec3 even_light(vec3 way)
+void add_even(Light light, vec3 way, inout vec3 sum)
+{
+    if (light.place.w == 0.0) sum += light.intensity.rgb * phase(light, dot(light.place.xyz, way));
+}
+
+// Light that is the same along the whole way: ambient and directional. `cluster`: that of the way's end.
+vec3 even_light(vec3 way, uint cluster)
 {
     vec3 sum = flake_ambient();
-    for (uint i = 0u; i < kLightCount; ++i)
-        if (lights[i].place.w == 0.0) sum += lights[i].intensity.rgb * phase(lights[i], dot(lights[i].place.xyz, way));
+    EACH_LIGHT_ON_THE_WAY(cluster, add_even(lights[i], way, sum));
     return sum;
 }
 
+void add_glow(Light light, AirPath path, float to, inout vec3 sum)
+{
+    if (light.place.w != 0.0) sum += airlight_to(light, path, to);
+}
+
 // Glow of point and spot lamps on the way.
-vec3 lamp_glow(AirPath path, float to)
+vec3 lamp_glow(AirPath path, float to, uint cluster)
 {
     vec3 sum = vec3(0.0);
-    for (uint i = 0u; i < kLightCount; ++i)
-        if (lights[i].place.w != 0.0) sum += airlight_to(lights[i], path, to);
+    EACH_LIGHT_ON_THE_WAY(cluster, add_glow(lights[i], path, to, sum));
     return sum;
 }
