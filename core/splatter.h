@@ -6,6 +6,7 @@
 
 #include "core/air.h"
 #include "core/flake.h"
+#include "core/lamp_clusters.h"
 #include "core/light.h"
 #include "core/shadow.h"
 #include "core/snow.h"
@@ -50,6 +51,7 @@ struct SplatJob
     const Lamp<float>* lamps = nullptr;
     std::size_t lamp_count = 0;
     LampShadows shadows;  ///< of the first of them
+    LampClusters clusters;  ///< which of the lamps count where
     CrystalTexels crystals;
     FlakeView flakes{};
     const std::uint64_t* pairs = nullptr;  ///< of the draw list, in the order of blending

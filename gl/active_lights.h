@@ -33,7 +33,7 @@ struct ActiveLights
 };
 
 /// Lights of the scene and of its models at the display time, in the local frame. Pure. Leaving a light out
-/// changes no pixel.
+/// changes no pixel. Lamps without a range get that of RenderSettings::dimmest_lamp_w_m2.
 ActiveLights active_lights(const scene::Scene& scene, std::span<const scene::Light> model_lights,
                            const View& view, double time_s);
 

@@ -43,6 +43,7 @@ enum Binding : unsigned
     kBloomCommandWritten = 6,
     kExposureWritten = 7,
     kDrawCommands = 6,  // each of these is bound where it is used
+    kLampClusters = 7,  // until something is exposed
     kSceneDepth = 0,
     kMasks = 1,
     kDepthTiles = 2,

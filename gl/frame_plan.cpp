@@ -12,6 +12,7 @@
 #include "core/visibility.h"
 #include "gl/active_lights.h"
 #include "gl/bloom_shape.h"
+#include "gl/cluster_lamps.h"
 #include "gl/pass_cost.h"
 #include "scene/air.h"
 
@@ -119,11 +120,15 @@ PlannedPass plan_lights(const Facts& facts)
     if (facts.lights.lamps.empty())
         return left_out("lights", dark.empty() ? "the scene has no lights: ambient only"
                                                : fmt::format("no light counts now ({}): ambient only", dark));
-    return runs(
-        "lights",
-        fmt::format("{} light{} on{}", facts.lights.lamps.size(), facts.lights.lamps.size() == 1 ? "" : "s",
-                    dark.empty() ? "" : fmt::format("; left out: {}", dark)),
-        "light table, display time", "lights");
+    const std::size_t lamps = facts.lights.lamps.size(), ending = count_bounded(facts.lights.lamps);
+    std::string reach;
+    if (lamps > 1)
+        reach = ending == lamps ? ", each where it reaches"
+                                : fmt::format(", {} of them everywhere: no range", lamps - ending);
+    return runs("lights",
+                fmt::format("{} light{} on{}{}", lamps, lamps == 1 ? "" : "s", reach,
+                            dark.empty() ? "" : fmt::format("; left out: {}", dark)),
+                "light table, display time", "lights");
 }
 
 /// The lights that cast shadows by their maps, and how they are looked up.

@@ -174,12 +174,14 @@ CasterBox casters_of(const scene::Scene& scene, const scene::Geometry& geometry)
             hold(box, own.high + place);
         }
     }
-    if (box.empty()) return box;
     const Vec3d size = scene.domain.max_m - scene.domain.min_m;
+    const CasterBox domain{
+        {0, 0, 0}, {static_cast<float>(size.x), static_cast<float>(size.y), static_cast<float>(size.z)}};
+    if (box.empty()) return domain;  // a map is looked up all the same
     box.low = {std::max(box.low.x, 0.0F), std::max(box.low.y, 0.0F), std::max(box.low.z, lowest_m)};
-    box.high.x = std::min(box.high.x, static_cast<float>(size.x));
-    box.high.y = std::min(box.high.y, static_cast<float>(size.y));
-    return box.low.y > box.high.y ? kNothing : box;
+    box.high.x = std::min(box.high.x, domain.high.x);
+    box.high.y = std::min(box.high.y, domain.high.y);
+    return box.empty() || box.low.y > box.high.y ? domain : box;
 }
 
 LampLens map_lens(const Lamp<float>& lamp, const CasterBox& box, int px)

@@ -22,7 +22,8 @@ struct CasterBox
 bool casts_shadow(const scene::Mesh& mesh, float lowest_m);
 float lowest_of(const scene::Geometry& geometry);
 
-/// All that casts shadows in the domain, wherever its vehicles go: it does not change over a run.
+/// All that casts shadows in the domain, wherever its vehicles go: it does not change over a run. The domain
+/// itself where nothing does.
 CasterBox casters_of(const scene::Scene& scene, const scene::Geometry& geometry);
 
 /// The lens of a lamp's map of `px` texels across over what is in the box; depth over the width.

@@ -34,8 +34,10 @@ class LitProgram
 
     GLuint for_lights(const LitBy& lit) const;
 
-  private:
+    /// More lights than this are read from a buffer, each where it counts (LampClusters).
     static constexpr std::size_t kMostUnrolled = 8;
+
+  private:
     std::array<std::string_view, 2> files_;
     std::vector<std::string_view> defines_;
     mutable std::map<LitBy, Program> variants_;  // one takes any number of lights above the unrolled ones

@@ -12,12 +12,14 @@
 #include "gl/active_lights.h"
 #include "gl/air_pass.h"
 #include "gl/bloom_pass.h"
+#include "gl/cluster_lamps.h"
 #include "gl/crystal_texture.h"
 #include "gl/exposure_pass.h"
 #include "gl/flake_look.h"
 #include "gl/flake_pass.h"
 #include "gl/frame_constants.h"
 #include "gl/full_screen_pass.h"
+#include "gl/lit_program.h"
 #include "gl/pass_timers.h"
 #include "gl/picture.h"
 #include "gl/scene_pass.h"
@@ -74,6 +76,9 @@ struct Renderer::Impl
     Buffer frame_block;
     Buffer light_buffer;
     std::size_t light_room = 0;
+    ClusteredLamps clusters;
+    Buffer cluster_buffer;
+    std::size_t cluster_room = 0;
     PassTimers timers;
     bool fenced;  // the host writes the flakes
     GLsync flakes_read = nullptr;
@@ -109,6 +114,7 @@ struct Renderer::Impl
     Impl& operator=(const Impl&) = delete;
 
     void upload_lights(const std::vector<Lamp<float>>& lamps);
+    void cluster_lights(const std::vector<Lamp<float>>& lamps, const View& view);
     /// How often flakes get the ambient light: once; as the report prints it, for each lamp.
     std::uint32_t flake_ambient_times(std::size_t lights) const;
     FrameConstants constants(const View& view, std::size_t lights, double time_s) const;
@@ -147,6 +153,23 @@ void Renderer::Impl::upload_lights(const std::vector<Lamp<float>>& lamps)
                              static_cast<GLsizeiptr>(lights.size() * sizeof(PackedLight)), lights.data());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kLights, light_buffer.name());
     glBindBufferBase(GL_UNIFORM_BUFFER, kFewLights, light_buffer.name());
+}
+
+void Renderer::Impl::cluster_lights(const std::vector<Lamp<float>>& lamps, const View& view)
+{
+    // A single lamp that ends somewhere is soon computed for nothing; few lights are all unrolled by GL.
+    const bool many = lamps.size() > LitProgram::kMostUnrolled;
+    clusters = many || count_bounded(lamps) > 1 ? ClusteredLamps(lamps, view) : ClusteredLamps();
+    if (!many) return;
+    const std::vector<std::uint32_t> packed = pack(clusters.view());
+    if (packed.size() > cluster_room)
+    {
+        cluster_room = packed.size();
+        cluster_buffer =
+            make_buffer(static_cast<GLsizeiptr>(cluster_room * 4), nullptr, GL_DYNAMIC_STORAGE_BIT);
+    }
+    glNamedBufferSubData(cluster_buffer.name(), 0, static_cast<GLsizeiptr>(packed.size() * 4), packed.data());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kLampClusters, cluster_buffer.name());
 }
 
 std::uint32_t Renderer::Impl::flake_ambient_times(std::size_t lights) const
@@ -323,6 +346,7 @@ void Renderer::draw(const FramePlan& plan, const View& view, const DrawList& fla
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     m.air.prepare(plan, view, time_s);
     m.draw_shadows(plan, lights, flakes.slots, time_s);
+    m.cluster_lights(lights, view);  // its binding is used before
     m.draw_solid(plan, view, time_s);
     m.draw_flakes(plan, view, flakes);
     const bool in_tiles = plan.runs("tiles");
@@ -330,8 +354,9 @@ void Renderer::draw(const FramePlan& plan, const View& view, const DrawList& fla
     {
         const scene::Colour& ambient = m.scene.sky.ambient;
         const auto times = static_cast<float>(m.flake_ambient_times(lights.size()));
-        m.draw_tiles(plan, {view, flakes, lights, Vec3f{ambient.r, ambient.g, ambient.b} * times,
-                            m.air.before_flakes(), m.shadow_pass.on_host(plan.lit), time_s});
+        m.draw_tiles(plan,
+                     {view, flakes, lights, m.clusters.view(), Vec3f{ambient.r, ambient.g, ambient.b} * times,
+                      m.air.before_flakes(), m.shadow_pass.on_host(plan.lit), time_s});
     }
     if (!in_tiles || !plan.tone_in_tiles) m.develop(plan, time_s);
 }

@@ -29,6 +29,7 @@ class TilePass
         const View& view;
         const DrawList& list;
         const std::vector<Lamp<float>>& lamps;
+        LampClusters clusters;
         Vec3f ambient;  ///< of flakes
         SplatAir air;
         LampShadows shadows;

@@ -317,6 +317,10 @@ void describe_render(Section& section, RenderSettings& render)
                    .about = "steps of bitonic-passes and odd-even-passes; also --sort-passes"},
                   {.min = 1, .max = 4096}, render.sort_passes_per_frame);
     describe_exposure(section, render);
+    section.number({.name = "dimmest_lamp_w_m2",
+                    .about = "irradiance at which a lamp without a range ends, so that many of them cost "
+                             "little; 0: it reaches everything"},
+                   {.min = 0, .max = 1e6}, render.dimmest_lamp_w_m2);
     section.number({.name = "flake_opacity", .about = "at the centre of a flake"}, kShare,
                    render.flake_opacity);
     section.number({.name = "flake_scale",

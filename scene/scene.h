@@ -278,6 +278,9 @@ struct RenderSettings
     bool auto_exposure = false;  ///< `exposure` is then found from the picture
     double grey = 0.18;          ///< what the log-average of the picture is shown as
     double adaptation_s = 1;     ///< time constant of the automatic exposure
+    /// Lamps without a range get one at which their light has faded to this irradiance; 0: they reach
+    /// everything.
+    double dimmest_lamp_w_m2 = 0;
     double flake_opacity = 0.9;  ///< at the centre of a flake, 0..1
     double flake_scale = 1;      ///< drawn size over real size; light is kept by weight / scale^2
 };

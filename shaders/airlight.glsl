@@ -108,27 +108,35 @@ float share_in_fog(uint index, AirPath path, float to)
     return all > 0.0 ? lit / all : 1.0;
 }
 
-// Light that comes from everywhere or far away, as fog up to a distance scatters it: ambient and directional.
-vec3 even_light(AirPath path, float to)
+void add_even(uint index, AirPath path, float to, inout vec3 sum)
+{
+    Light light = lights[index];
+    if (light.place.w != 0.0) return;
+    vec3 even = light.intensity.rgb * phase(light, dot(light.place.xyz, path.way));
+#ifdef SHADOWS
+    if (index < uint(SHADOWS)) even *= share_in_fog(index, path, to);
+#endif
+    sum += even;
+}
+
+// Light that comes from everywhere or far away, as fog up to a distance scatters it: ambient and directional. `cluster`: that of
+// the way's end.
+vec3 even_light(AirPath path, float to, uint cluster)
 {
     vec3 sum = flake_ambient();
-    for (uint i = 0u; i < kLightCount; ++i)
-    {
-        if (lights[i].place.w != 0.0) continue;
-        vec3 light = lights[i].intensity.rgb * phase(lights[i], dot(lights[i].place.xyz, path.way));
-#ifdef SHADOWS
-        if (i < uint(SHADOWS)) light *= share_in_fog(i, path, to);
-#endif
-        sum += light;
-    }
+    EACH_LIGHT_ON_THE_WAY(cluster, add_even(i, path, to, sum));
     return sum;
 }
 
+void add_glow(uint index, AirPath path, float to, inout vec3 sum)
+{
+    if (lights[index].place.w != 0.0) sum += airlight_to(index, path, to);
+}
+
 // Glow of point and spot lamps on the way.
-vec3 lamp_glow(AirPath path, float to)
+vec3 lamp_glow(AirPath path, float to, uint cluster)
 {
     vec3 sum = vec3(0.0);
-    for (uint i = 0u; i < kLightCount; ++i)
-        if (lights[i].place.w != 0.0) sum += airlight_to(i, path, to);
+    EACH_LIGHT_ON_THE_WAY(cluster, add_glow(i, path, to, sum));
     return sum;
 }

@@ -17,11 +17,19 @@ layout(location = 4) uniform uint seed;
 
 const float kOne = 65536.0;
 
+// A flake is laid over a square in which its optical depth is no more than this: what falls at random then hides as much as
+// it covers, to half of this.
+const float kMostDepth = 0.02;
+const float kWidest = 24.0;  // texels
+
 void add(vec2 texel, uint slice, float depth)
 {
     uvec2 at = uvec2(clamp(texel, vec2(0.0), vec2(float(size.x) - 1.0)));
     atomicAdd(cells[((size.z + slice) * size.x + at.y) * size.x + at.x], uint(depth * kOne + 0.5));
 }
+
+// Share of a square from low to high that lies over a texel, on each axis.
+vec2 over(vec2 texel, vec2 low, vec2 high) { return max(min(high, texel + 1.0) - max(low, texel), 0.0) / (high - low); }
 
 void main()
 {
@@ -35,14 +43,16 @@ void main()
     if (!seen) return;
     float radius_m = look.y * flake_diameter(look_unit(look_hash(mix32(ids[slot] ^ seed), 0u)), look.x);
     float texel_m = look.w * at.w;
-    // Near a spot a flake may be larger than a texel.
-    float depth = min(look.z * radius_m * radius_m / (texel_m * texel_m), 1.0);
+    float depth = look.z * radius_m * radius_m / (texel_m * texel_m);
+    float wide = clamp(sqrt(depth / kMostDepth), 1.0, kWidest);
+    depth = min(depth, wide * wide);
     uint slice = min(uint(at.z * float(size.y)), size.y - 1u);
-    vec2 texel = place * float(size.x) - 0.5;
-    vec2 low = floor(texel);
-    vec2 share = texel - low;
-    add(low, slice, depth * (1.0 - share.x) * (1.0 - share.y));
-    add(low + vec2(1.0, 0.0), slice, depth * share.x * (1.0 - share.y));
-    add(low + vec2(0.0, 1.0), slice, depth * (1.0 - share.x) * share.y);
-    add(low + 1.0, slice, depth * share.x * share.y);
+    vec2 low = place * float(size.x) - 0.5 * wide;
+    vec2 high = low + wide;
+    for (float y = floor(low.y); y < high.y; y += 1.0)
+        for (float x = floor(low.x); x < high.x; x += 1.0)
+        {
+            vec2 share = over(vec2(x, y), low, high);
+            add(vec2(x, y), slice, depth * share.x * share.y);
+        }
 }

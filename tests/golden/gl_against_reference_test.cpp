@@ -144,6 +144,21 @@ TEST_P(GlAgainstReference, SeesTheFlakes)
     EXPECT_GT(image::compare(with, draw(), 0).relative_l2, 20 * c.most_relative_l2);
 }
 
+TEST_P(GlAgainstReference, SeesTheShadows)
+{
+    const Case& c = tested();
+    if (!c.shadows) GTEST_SKIP() << "a scene without shadows";
+    SmallScene small = small_scene(c);
+    const auto draw = [&]
+    {
+        return reference::render(small.scene, small.geometry, small.world, small.flakes.view(),
+                                 small.flakes.x.size(), small.view, small.time_s);
+    };
+    const image::Image with = draw();
+    for (scene::Light& light : small.scene.lights) light.shadow = false;
+    EXPECT_GT(image::compare(with, draw(), 0).relative_l2, 10 * c.most_relative_l2);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Scenes, GlAgainstReference,
     testing::Combine(
@@ -162,10 +177,10 @@ INSTANTIATE_TEST_SUITE_P(
             Case{"air_additive", 2000, 40, Blending::additive, Sprite::crystal, true, Air::thick, 1e-3, 1e-2},
             Case{"air_opaque", 2000, 20, Blending::opaque, Sprite::point, true, Air::thick, 1e-3, 1e-2},
             Case{"air_legacy", 2000, 40, Blending::over, Sprite::crystal, true, Air::legacy, 1.5e-3, 2e-3},
-            Case{"shadows", 0, 1, Blending::over, Sprite::crystal, true, Air::clear, 2e-2, 1.5e-2, true},
-            Case{"shadows_flakes", 2000, 40, Blending::over, Sprite::crystal, true, Air::clear, 2e-2, 2e-2,
+            Case{"shadows", 0, 1, Blending::over, Sprite::crystal, true, Air::clear, 1e-3, 2e-3, true},
+            Case{"shadows_flakes", 2000, 40, Blending::over, Sprite::crystal, true, Air::clear, 1e-3, 2e-3,
                  true},
-            Case{"shadows_air", 2000, 40, Blending::over, Sprite::crystal, true, Air::thick, 2e-2, 3e-2,
+            Case{"shadows_air", 2000, 40, Blending::over, Sprite::crystal, true, Air::thick, 1e-3, 1.5e-2,
                  true},
             Case{"opaque_lamps", 2000, 20, Blending::opaque, Sprite::point, true, Air::clear, 1e-3, 3e-3}),
         testing::Values(FlakePath::raster, FlakePath::tiles)),

@@ -81,14 +81,15 @@ class SnowShade : public testing::Test
                                       small.flakes.x.size(), small.view, small.time_s));
     }
     /// Share of the light that is left, by the slices and exactly.
-    static void check(SmallScene small, const char* name, double expected, double tolerance)
+    static void check(SmallScene small, const char* name, double expected, double tolerance,
+                      double most_off = 0.02)
     {
         const double dimmed = drawn(small), truth = exact(small);
         small.scene.shadows.snow_slices = 0;
         const double bright = drawn(small);
         std::printf("%s: share of the light by slices %.4f, exactly %.4f, by number and area %.4f\n", name,
                     dimmed / bright, truth / bright, expected);
-        EXPECT_NEAR(dimmed / truth, 1, 0.02);
+        EXPECT_NEAR(dimmed / truth, 1, most_off);
         EXPECT_NEAR(truth / bright, expected, tolerance);
     }
     static std::unique_ptr<gl::Context> context_;
@@ -113,15 +114,16 @@ TEST_F(SnowShade, DimsASpotInClearAirAndLeavesItToTheFogInThickAir)
     SmallScene small = below_snow();
     scene::Light lamp = sun();
     lamp.kind = scene::LightKind::spot;
-    lamp.position_m = {20, 20, 19};
+    lamp.position_m = {20, 20, 25};
     lamp.direction = {0, 0, -1};
     lamp.intensity = {100, 100, 100};
     lamp.inner_cone_deg = 30;
     lamp.outer_cone_deg = 50;
     small.scene.lights = {lamp};
     const double area_m2 = scene::full_flake_area_m2(small.scene.render, small.scene.snow);
-    const double depth = kFlakes / (40.0 * 40.0 * 15.0) * area_m2 * 14;
-    check(small, "spot", std::exp(-depth), 0.3);  // few flakes are near the lamp, and each hides much
+    const double depth = kFlakes / (40.0 * 40.0 * 15.0) * area_m2 * 15;
+    check(small, "spot", std::exp(-depth), 0.2,
+          0.04);  // ways aslant are longer, and some discs cover much of what it sees
     small.scene.air.source = scene::AirSource::visibility;
     small.scene.air.visibility_m = 100;
     const double thick = drawn(small);

@@ -486,12 +486,11 @@ TEST(SceneErrors, Contradictions)
          "remove it, or make that so"},
         {with("[[light]]\nkind = \"point\"\nposition_m = [1, 1, 1]\nintensity_w_sr = [1, 1, 1]\nshadow = "
               "true\n"),
-         "s.toml:13: light.shadow = true does not apply here (it counts only with kind = \"spot\" or "
-         "\"directional\"); take it away"},
+         "s.toml:13: light[1].shadow = true has no effect here (it counts only with kind = \"spot\" or "
+         "\"directional\"); remove it, or make that so"},
         {with("[shadows]\nmap_px = 512\n"),
-         "s.toml:10: shadows.map_px = 512 does not apply here (it counts only with a [[light]] that has "
-         "shadow = "
-         "true); take it away"},
+         "s.toml:10: shadows.map_px = 512 has no effect here (it counts only with a [[light]] that has "
+         "shadow = true); remove it, or make that so"},
         {with("[[light]]\nkind = \"directional\"\ndirection = [0, 0, 0]\nirradiance_w_m2 = [1, 1, 1]\n"),
          "s.toml:11: light[1].direction = [0, 0, 0] has no length (it points nowhere); use a vector longer "
          "than 1e-6"},
