@@ -40,14 +40,22 @@ class UndrawnMemory final : public FlakeMemory
 class DrawnMemory final : public FlakeMemory
 {
   public:
-    explicit DrawnMemory(std::unique_ptr<gpu::DrawnMemory> memory) : memory_(std::move(memory)) {}
+    DrawnMemory(std::unique_ptr<gpu::DrawnMemory> memory, bool shared)
+        : memory_(std::move(memory)), shared_(shared)
+    {
+    }
     gpu::FlakeMemory& on_device() { return *memory_; }
     std::size_t bytes() const override { return memory_->bytes(); }
     const gl::FlakeBuffers* drawn_from() const override { return &memory_->drawn_from(); }
     void hand_over(std::size_t, const DrawList&) override {}  // Backend::close does
+    std::uint64_t readable(const DrawList& list) const override
+    {
+        return shared_ ? list.slots : list.count;  // a copy holds what is drawn, from slot 0 on
+    }
 
   private:
     std::unique_ptr<gpu::DrawnMemory> memory_;
+    bool shared_;
 };
 
 gpu::SharingWish wish_of(Interop interop)
@@ -109,7 +117,7 @@ Engine make_cuda_engine(const World& world, const RunOptions& options, std::uint
     const gpu::SharingWish wish = wish_of(options.interop);
     gpu::Sharing sharing = gpu::find_sharing(wish);
     auto memory = gpu::make_drawn_memory(world.capacity, wish, sharing);
-    return on(std::make_unique<DrawnMemory>(std::move(memory)), way_of(sharing), world, cuda);
+    return on(std::make_unique<DrawnMemory>(std::move(memory), sharing.shared), way_of(sharing), world, cuda);
 }
 
 PoissonSolverMaker cuda_poisson_solver()

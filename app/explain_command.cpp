@@ -113,13 +113,21 @@ void print_scene(const Explained& e)
                e.scene.render.frames_per_s, e.scene.render.warm_up_s);
 }
 
+/// No context is made, so that nobody knows who will run GL.
+const char* planned_for(const scene::Scene& scene)
+{
+    return scene.render.flake_path == scene::FlakePath::automatic
+               ? " (of a GPU; software GL takes --flake-path tiles)"
+               : "";
+}
+
 void print_text(const Explained& e)
 {
     print_scene(e);
     fmt::print("\nSimulation leaves out\n");
     for (const Skip& skip : simulation_skips(e.world, e.scene.reorder_every_steps))
         fmt::print("  {}: {}\n", skip.what, skip.why);
-    fmt::print("\nFirst frame\n{}", gl::to_text(e.plan));
+    fmt::print("\nFirst frame{}\n{}", planned_for(e.scene), gl::to_text(e.plan));
     fmt::print("\nMemory, estimated: {:.1f} MB\n", megabytes(e.memory.total()));
     fmt::print("  flakes {:.1f}, voxels {:.1f}, wind {:.1f}, picture {:.1f}\n", megabytes(e.memory.flakes),
                megabytes(e.memory.voxels), megabytes(e.memory.wind), megabytes(e.memory.picture));
@@ -156,6 +164,7 @@ void print_json(const Explained& e)
                        {"voxels", {w.voxels.nx, w.voxels.ny, w.voxels.nz}},
                        {"triangles", e.triangles},
                        {"lights", e.lights},
+                       {"frame_of", e.scene.render.flake_path == scene::FlakePath::automatic ? "gpu" : "any"},
                        {"frame", passes},
                        {"skipped", skips},
                        {"memory_bytes",

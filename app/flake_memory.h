@@ -21,6 +21,8 @@ class FlakeMemory
     virtual const gl::FlakeBuffers* drawn_from() const = 0;
     /// Makes slots [0, used) and the list visible to GL. Free where the simulation writes GL's memory.
     virtual void hand_over(std::size_t used, const DrawList& list) = 0;
+    /// How many slots GL can read then: fewer where only those of the list are copied.
+    virtual std::uint64_t readable(const DrawList& list) const { return list.slots; }
 };
 
 /// What the CPU can address.

@@ -67,6 +67,9 @@ gl::FramePlan FrameDrawer::plan(const View& view, double time_s, const FlakeCoun
     stats.drawn = list_.count;
     stats.exposed = last_time_s_ == time_s;
     stats.brightest_emission = brightest_emission_;
+    stats.shown = shown_;
+    stats.shadows = shadows_;
+    stats.snow_shaded = snow_shaded_;
     return gl::plan_frame(scene_, view, stats, time_s, geometry_.model_lights, gl_);
 }
 
@@ -84,12 +87,31 @@ FlakeCounts FrameDrawer::list_flakes(const View& view, double time_s)
     return counts_ = simulator_.backend().counts();
 }
 
+void FrameDrawer::settle_bloom()
+{
+    if (bloomed_ && !renderer_.found_bright())
+        plans_.left_out_after_all("bloom", "nothing in the picture was bright: the chain drew nothing");
+    bloomed_ = false;
+}
+
+const PlanLog& FrameDrawer::plans()
+{
+    settle_bloom();
+    return plans_;
+}
+
 void FrameDrawer::draw(const View& view, double time_s)
 {
     const FlakeCounts counts = list_flakes(view, time_s);
     const gl::FramePlan frame = plan(view, time_s, counts);
+    settle_bloom();
     plans_.add(frame);
+    bloomed_ = frame.runs("bloom");
     stale_ = false;
+    shown_.reset();
+    if (counts.alive == 0) shown_ = frame.shown;
+    shadows_ = frame.lit.maps ? frame.shadows : gl::ShadowCast{};
+    snow_shaded_ = frame.lit.snow;
     last_view_ = view;
     last_time_s_ = time_s;
     last_step_ = simulator_.backend().step_number();
@@ -106,6 +128,7 @@ void FrameDrawer::draw(const View& view, double time_s)
         const StageTimer timer(log_, "wait for GL");
         renderer_.wait_for_flakes();
     }
+    if (frame.still) return;
     for (const gl::PassTime& pass : renderer_.times()) log_.add("gl " + pass.name, pass.ms);
 }
 

@@ -30,7 +30,8 @@ class FrameDrawer
     void draw(const View& view, double time_s);
 
     gl::Renderer& renderer() { return renderer_; }
-    const PlanLog& plans() const { return plans_; }
+    /// Of all frames so far, by what the GPU found in them too; waits for the last one.
+    const PlanLog& plans();
     SortSettings sort() const
     {
         return {scene_.render.sort, scene_.render.depth_bits, scene_.render.sort_passes_per_frame};
@@ -42,6 +43,8 @@ class FrameDrawer
     const std::vector<float>& culled() const { return culled_; }
 
   private:
+    /// Asks the GPU about the last frame's bloom, once it is done.
+    void settle_bloom();
     gl::FramePlan plan(const View& view, double time_s, const FlakeCounts& counts) const;
     /// Makes the draw list anew if anything moved. Returns the counts of the steps that were made.
     FlakeCounts list_flakes(const View& view, double time_s);
@@ -55,12 +58,16 @@ class FrameDrawer
     std::unique_ptr<Splatter> splatter_;
     gl::Renderer renderer_;
     PlanLog plans_;
-    bool stale_ = true;  ///< the draw list must be made anew whatever moved
+    bool bloomed_ = false;  ///< the plan of the last frame, not settled yet
+    bool stale_ = true;     ///< the draw list must be made anew whatever moved
     std::optional<View> last_view_;
     std::optional<double> last_time_s_;
     std::uint64_t last_step_ = 0;
     DrawList list_;
     FlakeCounts counts_;  ///< when the list was made
+    std::optional<gl::Moving> shown_;  ///< in the last frame
+    gl::ShadowCast shadows_;           ///< for which maps are kept
+    bool snow_shaded_ = false;
     std::vector<float> drawn_, culled_;
 };
 

@@ -41,4 +41,15 @@ void PlanLog::add(const gl::FramePlan& plan)
     }
 }
 
+void PlanLog::left_out_after_all(const std::string& pass, const std::string& reason)
+{
+    const auto found =
+        std::find_if(passes_.begin(), passes_.end(), [&](const PassHistory& h) { return h.name == pass; });
+    if (found == passes_.end() || found->ran == 0) return;
+    --found->ran;
+    ++found->skipped;
+    if (found->ran == 0) found->ran_because.clear();
+    note(found->skipped_because, reason);
+}
+
 }  // namespace spindrift::app

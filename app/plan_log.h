@@ -22,6 +22,8 @@ class PlanLog
 {
   public:
     void add(const gl::FramePlan& plan);
+    /// The pass of the last plan that was to run did nothing.
+    void left_out_after_all(const std::string& pass, const std::string& reason);
     const std::vector<PassHistory>& passes() const { return passes_; }
 
   private:

@@ -44,13 +44,14 @@ bool Simulator::advance_to(std::uint64_t steps, const std::function<bool()>& sto
 
 DrawList Simulator::prepare(const View& view, const SortSettings& sort)
 {
-    const DrawList list = backend_->prepare(view, sort);
+    DrawList list = backend_->prepare(view, sort);
     const StageTimes times = backend_->times();
     add(log_, "cull", times.cull);
     if (list.sorted) add(log_, "sort", times.sort);
     const StageTimer timer(log_, "upload");
     memory_->hand_over(backend_->slots_used(), list);
     backend_->close(list);
+    list.slots = memory_->readable(list);
     return list;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/snow.h"
 #include "cpu/cpu_backend.h"
@@ -31,15 +32,20 @@ scene::Scene shipped_scene(const std::string& name, std::uint64_t particles, int
 }  // namespace
 
 DrawnScene::DrawnScene(const std::string& name, std::uint64_t particles, int width_px, int height_px)
+    : DrawnScene(shipped_scene(name, particles, width_px, height_px))
+{
+}
+
+DrawnScene::DrawnScene(scene::Scene scene)
     : context_(gl::make_headless_context()),
-      scene_(shipped_scene(name, particles, width_px, height_px)),
+      scene_(std::move(scene)),
       geometry_(scene::read_geometry(scene_)),
       world_(scene::make_world(scene_, geometry_, cpu::project_wind())),
       buffers_(std::make_unique<gl::FlakeBuffers>(world_.capacity)),
       backend_(cpu::make_cpu_backend(world_, buffers_->flakes(), buffers_->draw_list(), {})),
       splatter_(cpu::make_tile_splatter({})),
-      renderer_(std::make_unique<gl::Renderer>(scene_, geometry_, world_, *buffers_, width_px, height_px,
-                                               splatter_.get()))
+      renderer_(std::make_unique<gl::Renderer>(scene_, geometry_, world_, *buffers_, scene_.render.width_px,
+                                               scene_.render.height_px, splatter_.get()))
 {
 }
 

@@ -22,12 +22,13 @@
 namespace spindrift::bench
 {
 
-/// A shipped scene with backend and renderer, stage by stage, for measuring. Makes its own headless context.
+/// A shipped scene, or one made up, with backend and renderer, stage by stage, for measuring. Makes its own headless context.
 class DrawnScene
 {
   public:
     /// `name` without folder and suffix.
     DrawnScene(const std::string& name, std::uint64_t particles, int width_px, int height_px);
+    explicit DrawnScene(scene::Scene scene);
 
     void step();
     void prepare();

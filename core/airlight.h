@@ -79,10 +79,35 @@ SPINDRIFT_HD R reaching(const AirLayers<R>& air, const Lamp<R>& lamp, const Vec3
     return exp(-optical_depth(air, lamp.position_m.z, place.z, sqrt(dot(way, way))));
 }
 
+/// A lamp that nothing stands before. Others give the share of a lamp's light that reaches a place.
+struct NothingBetween
+{
+    template <class R>
+    SPINDRIFT_HD R operator()(const Vec3<R>&) const
+    {
+        return number<R>(1);
+    }
+};
+
+/// Places and weights of the Gauss-Legendre rule over [-1, 1].
+SPINDRIFT_HD double airlight_place(int k)
+{
+    constexpr double half[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
+                                0.9602898564975363};
+    return k < 4 ? -half[k] : half[k - 4];
+}
+SPINDRIFT_HD double airlight_weight(int k)
+{
+    constexpr double half[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
+                                0.1012285362903763};
+    return half[k < 4 ? k : k - 4];
+}
+
 /// Radiance towards the eye, W/(m2 sr), of a point or spot lamp's light from the part [from, to] of a way.
 /// The extinction must be smooth there: cut the way where it enters and leaves the flakes' volume.
-template <class R>
-SPINDRIFT_HD Vec3<R> airlight(const AirPath<R>& path, const Lamp<R>& lamp, const R& from_m, const R& to_m)
+template <class R, class Reach = NothingBetween>
+SPINDRIFT_HD Vec3<R> airlight(const AirPath<R>& path, const Lamp<R>& lamp, const R& from_m, const R& to_m,
+                              const Reach& reach = {})
 {
     const R zero = number<R>(0), one = number<R>(1);
     const LitPart<R> lit = lit_part(lamp, path.eye, path.way, from_m, to_m);
@@ -95,17 +120,12 @@ SPINDRIFT_HD Vec3<R> airlight(const AirPath<R>& path, const Lamp<R>& lamp, const
     const R first = atan((select(any_lit, lit.from, zero) - nearest) / least);
     const R last = atan((select(any_lit, lit.to, zero) - nearest) / least);
     const R middle = number<R>(0.5) * (first + last), half = number<R>(0.5) * (last - first);
-    // Of the Gauss-Legendre rule, halves: inside the function, so that kernels share no table.
-    constexpr double kPlaces[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
-                                   0.9602898564975363};
-    constexpr double kWeights[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
-                                    0.1012285362903763};
     R sum = zero;
     for (int k = 0; k < kAirlightPoints; ++k)
     {
-        const double place = k < 4 ? -kPlaces[k] : kPlaces[k - 4];
         R sine, cosine;
-        sincos_turns((middle + half * number<R>(place)) * number<R>(0.15915494309189533577), sine, cosine);
+        sincos_turns((middle + half * number<R>(airlight_place(k))) * number<R>(0.15915494309189533577), sine,
+                     cosine);
         const R at = nearest + least * sine / cosine;
         const R away = least / cosine;
         const R height = path.eye.z + path.way.z * at;
@@ -118,25 +138,50 @@ SPINDRIFT_HD Vec3<R> airlight(const AirPath<R>& path, const Lamp<R>& lamp, const
             share = clamp((dot(lamp.direction, from_lamp) - lamp.cos_outer) / width, zero, one);
             share = share * share;
         }
-        const R reach = away / lamp.range_m;
-        const R window = max(one - (reach * reach) * (reach * reach), zero);
+        const R far = away / lamp.range_m;
+        const R window = max(one - (far * far) * (far * far), zero);
         // the light goes on from the lamp's side: the cosine to the eye is -sin(theta)
-        sum = sum + number<R>(kWeights[k < 4 ? k : k - 4]) * share * window * path.fog_at(at) * exp(-depth) *
-                        scattered_share(lamp.phase, -sine);
+        sum = sum + number<R>(airlight_weight(k)) * share * window * path.fog_at(at) * exp(-depth) *
+                        scattered_share(lamp.phase, -sine) * reach(path.eye + path.way * at);
     }
     return lamp.intensity * (sum * half / least);
 }
 
 /// The same over the whole way up to `to_m`, cut at the flakes' volume.
-template <class R>
-SPINDRIFT_HD Vec3<R> airlight_to(const AirPath<R>& path, const Lamp<R>& lamp, const R& to_m)
+template <class R, class Reach = NothingBetween>
+SPINDRIFT_HD Vec3<R> airlight_to(const AirPath<R>& path, const Lamp<R>& lamp, const R& to_m,
+                                 const Reach& reach = {})
 {
     const R zero = number<R>(0);
     const R in = min(path.enters_m, to_m), out = min(path.leaves_m, to_m);
-    Vec3<R> sum = airlight(path, lamp, out, to_m);
-    if (any(in > zero)) sum = sum + airlight(path, lamp, zero, in);
-    if (any(out > in)) sum = sum + airlight(path, lamp, in, out);
+    Vec3<R> sum = airlight(path, lamp, out, to_m, reach);
+    if (any(in > zero)) sum = sum + airlight(path, lamp, zero, in, reach);
+    if (any(out > in)) sum = sum + airlight(path, lamp, in, out, reach);
     return sum;
+}
+
+/// Share of parallel light that reaches the fog on the way up to `to_m`, each part counting by what the eye
+/// gets of it: the mean over eight points that stand at equal shares of an even fog's light.
+template <class R, class Reach>
+SPINDRIFT_HD R share_in_fog(const AirPath<R>& path, const R& to_m, const Reach& reach)
+{
+    const R zero = number<R>(0), one = number<R>(1);
+    const R depth = path.of_fog(to_m), hidden = one - exp(-depth);
+    const auto thin = depth < number<R>(1e-3);  // the light comes evenly from everywhere
+    const R per_m = select(thin, one, depth) / to_m;
+    R lit = zero, all = zero;
+    for (int k = 0; k < kAirlightPoints; ++k)
+    {
+        const R share = number<R>(0.5 + 0.5 * airlight_place(k));
+        const R left = one - share * hidden;
+        const R at = select(thin, share * to_m, -log(left) / per_m);
+        // dt / dshare is to_m, or hidden / (per_m left)
+        const R weight =
+            number<R>(airlight_weight(k)) * path.fog_at(at) * exp(-path.of_fog(at)) / select(thin, one, left);
+        all = all + weight;
+        lit = lit + weight * reach(path.eye + path.way * at);
+    }
+    return select(all > zero, lit / select(all > zero, all, one), one);
 }
 
 }  // namespace spindrift

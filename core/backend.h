@@ -33,6 +33,7 @@ struct DrawList
     std::uint64_t count = 0;
     std::uint64_t culled = 0;  ///< alive but outside the view
     bool sorted = false;
+    std::uint64_t slots = 0;  ///< of the flakes that whoever draws can read, holes included
 };
 
 /// A stage that nobody timed.

@@ -45,6 +45,19 @@ SPINDRIFT_HD Vec3<R> bright_part(const Vec3<R>& c, const Bright<R>& bright)
     return c * (max(above, zero) / max(given, tiny));
 }
 
+/// The report's, (C - t) / (1 - t) by channel, under the same ceiling; held to the light that is there, and
+/// for thresholds up to 1, where it has a pole.
+template <class R>
+SPINDRIFT_HD Vec3<R> report_bright_part(const Vec3<R>& c, const Bright<R>& bright)
+{
+    const R given = max(c.x, max(c.y, c.z));
+    const R counted = min(given, bright.ceiling) / max(given, number<R>(1e-10));
+    const R per = number<R>(1) / max(number<R>(1) - bright.threshold, number<R>(1e-3));
+    const auto part = [&](const R& v)
+    { return clamp((v * counted - bright.threshold) * per, number<R>(0), v * counted); };
+    return {part(c.x), part(c.y), part(c.z)};
+}
+
 /// Weights of a Gaussian at 0, 1 ... radius, so that the sum from -radius to radius is 1. sigma > 0, or 0 for
 /// no spread. Truth and gl::BloomPass share them.
 inline std::vector<double> gaussian_weights(double sigma, int radius)

@@ -32,6 +32,7 @@ struct Lamp
     R range_m = infinity<R>();
     R cos_inner{1}, cos_outer{0};  ///< of the half angles of the spot's cones
     Phase<R> phase;                ///< of flakes in this light
+    bool casts_shadow = false;
 };
 
 /// Whether a flashing lamp is on at a moment: frac(t rate + phase) < duty.

@@ -6,7 +6,9 @@
 
 #include "core/air.h"
 #include "core/flake.h"
+#include "core/lamp_clusters.h"
 #include "core/light.h"
+#include "core/shadow.h"
 #include "core/snow.h"
 #include "core/view.h"
 
@@ -48,6 +50,8 @@ struct SplatJob
     SplatAir air;
     const Lamp<float>* lamps = nullptr;
     std::size_t lamp_count = 0;
+    LampShadows shadows;  ///< of the first of them
+    LampClusters clusters;  ///< which of the lamps count where
     CrystalTexels crystals;
     FlakeView flakes{};
     const std::uint64_t* pairs = nullptr;  ///< of the draw list, in the order of blending

@@ -92,6 +92,7 @@ class CpuBackend final : public Backend
         times_.cull = times_.sort = 0;
         DrawList result;
         arena_.execute([&] { result = prepare_in_arena(view, sort); });
+        result.slots = state_.used;
         return result;
     }
 

@@ -225,6 +225,7 @@ DrawList CudaBackend::prepare(const View& view, const SortSettings& settings)
     DrawList list;
     list.count = now.visible;
     list.culled = now.state.counts.alive - now.visible;
+    list.slots = now.state.used;
     sort_clock_.begin(stream_);
     sort_(stream_, strategy, settings, view, at.draw_list, list);
     if (reorders_ && list.sorted && !strategy.network)

@@ -66,12 +66,26 @@ Phase<float> phase_of(const scene::Light& light)
             static_cast<float>(light.back_share)};
 }
 
-Lamp<float> lamp_of(const scene::Light& light, const Vec3f& position_m)
+/// Where a lamp ends, m: at its range, or where its strongest channel has faded to the scene's dimmest light.
+float range_of(const scene::Light& light, const scene::RenderSettings& render)
 {
-    return {scene::lamp_kind(light.kind),      position_m,
-            to_float(light.direction),         {light.intensity.r, light.intensity.g, light.intensity.b},
-            static_cast<float>(light.range_m), cosine_deg(light.inner_cone_deg),
-            cosine_deg(light.outer_cone_deg),  phase_of(light)};
+    if (std::isfinite(light.range_m) || render.dimmest_lamp_w_m2 <= 0)
+        return static_cast<float>(light.range_m);
+    const scene::Colour& i = light.intensity;
+    return static_cast<float>(std::sqrt(double{std::max({i.r, i.g, i.b})} / render.dimmest_lamp_w_m2));
+}
+
+Lamp<float> lamp_of(const scene::Light& light, const Vec3f& position_m, float range_m)
+{
+    return {scene::lamp_kind(light.kind),
+            position_m,
+            to_float(light.direction),
+            {light.intensity.r, light.intensity.g, light.intensity.b},
+            range_m,
+            cosine_deg(light.inner_cone_deg),
+            cosine_deg(light.outer_cone_deg),
+            phase_of(light),
+            light.shadow};
 }
 
 }  // namespace
@@ -127,14 +141,17 @@ ActiveLights active_lights(const scene::Scene& scene, std::span<const scene::Lig
             return;
         }
         const Vec3f position = local_position(scene, light, time_s);
-        const bool bounded = light.kind != scene::LightKind::directional && std::isfinite(light.range_m);
-        if (bounded && !in_sight(view, position, static_cast<float>(light.range_m)))
+        const float range_m = range_of(light, scene.render);
+        const bool bounded = light.kind != scene::LightKind::directional && std::isfinite(range_m);
+        if (bounded && !in_sight(view, position, range_m))
             ++active.out_of_range;
         else
-            active.lamps.push_back(lamp_of(light, position));
+            active.lamps.push_back(lamp_of(light, position, range_m));
     };
     for (const scene::Light& light : scene.lights) consider(light);
     for (const scene::Light& light : model_lights) consider(light);
+    std::stable_partition(active.lamps.begin(), active.lamps.end(),
+                          [](const Lamp<float>& lamp) { return lamp.casts_shadow; });
     if (scene.render.scattering == scene::Scattering::legacy)
         for (Lamp<float>& lamp : active.lamps) lamp.phase = turned_round(lamp.phase);
     return active;

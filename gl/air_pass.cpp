@@ -84,14 +84,14 @@ void AirPass::upload() const
     glBindBufferBase(GL_UNIFORM_BUFFER, kAirBlock, block_.name());
 }
 
-void AirPass::draw(const LitProgram& program, GLuint depth, std::size_t lights) const
+void AirPass::draw(const LitProgram& program, GLuint depth, const LitBy& lit) const
 {
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     glBlendFuncSeparate(GL_ONE, GL_SRC_ALPHA, GL_ZERO, GL_ONE);
     glBindTextureUnit(kSceneDepth, depth);
-    glUseProgram(program.for_lights(lights));
+    glUseProgram(program.for_lights(lit));
     glBindVertexArray(nothing_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glDisable(GL_BLEND);

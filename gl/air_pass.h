@@ -23,14 +23,14 @@ class AirPass
     /// Brings the air of a frame to the shaders' block. Does nothing in clear air.
     void prepare(const FramePlan& plan, const View& view, double time_s);
     /// Over the bound target; `depth` is that of the scene, which must not be its attachment.
-    void draw_fog(GLuint depth, std::size_t lights) const { draw(fog_, depth, lights); }
-    void draw_airlight(GLuint depth, std::size_t lights) const { draw(airlight_, depth, lights); }
+    void draw_fog(GLuint depth, const LitBy& lit) const { draw(fog_, depth, lit); }
+    void draw_airlight(GLuint depth, const LitBy& lit) const { draw(airlight_, depth, lit); }
 
     /// The air before flakes that a Splatter blends, until the next prepare(). Not thick in clear air.
     SplatAir before_flakes() const;
 
   private:
-    void draw(const LitProgram& program, GLuint depth, std::size_t lights) const;
+    void draw(const LitProgram& program, GLuint depth, const LitBy& lit) const;
     void upload() const;
 
     scene::Scene scene_;

@@ -21,10 +21,12 @@ constexpr GLint kBright = 0;
 constexpr GLint kWeights = 0;
 constexpr GLint kRadius = 1;
 
-FullScreenPass make_bright(int scale)
+FullScreenPass make_bright(int scale, BloomMethod method)
 {
-    if (scale == 1) return {"develop.vert", "bloom_bright.frag"};
-    return {"develop.vert", "bloom_bright.frag", std::array<std::string_view, 1>{"HALF"}};
+    std::vector<std::string_view> defines;
+    if (scale > 1) defines.emplace_back("HALF");
+    if (method == BloomMethod::legacy) defines.emplace_back("REPORT");
+    return {"develop.vert", "bloom_bright.frag", defines};
 }
 
 /// Weight of the middle tap; that of the next over it; the factor by which this ratio falls.
@@ -51,7 +53,7 @@ BloomPass::BloomPass(const scene::BloomSettings& settings, int width_px, int hei
       shape_(bloom_shape(settings, height_px)),
       dark_outside_(make_linear_sampler(GL_CLAMP_TO_BORDER)),
       to_the_edge_(make_linear_sampler(GL_CLAMP_TO_EDGE)),
-      bright_(make_bright(shape_.first_scale)),
+      bright_(make_bright(shape_.first_scale, settings.method)),
       first_(&target(shape_.first_scale, shape_.first_scale)),
       spread_(first_),
       spread_scale_(shape_.first_scale),

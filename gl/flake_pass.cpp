@@ -20,7 +20,7 @@ using scene::Blending;
 
 constexpr std::array<std::string_view, 2> kFiles{"flake.vert", "flake.frag"};
 constexpr GLint kHasScene = 0;
-constexpr GLint kBlocksUsed = 6;
+constexpr GLint kBlocksUsed = 7;
 
 void require_vertex_pulling()
 {

@@ -21,7 +21,7 @@ struct FlakeDraw
     const View& view;
     const DrawList& list;
     GLuint scene_depth;  ///< copy of the scene's depth; 0: nothing to fade into
-    std::size_t lights;  ///< how many are active
+    LitBy lights;
     AirKind air;
 };
 

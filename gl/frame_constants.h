@@ -33,6 +33,7 @@ enum Binding : unsigned
     kExposure = 2,
     kBloomCommand = 3,
     kAirBlock = 4,
+    kShadowBlock = 5,
     kXArray = 0,
     kYArray = 1,
     kZArray = 2,
@@ -42,9 +43,12 @@ enum Binding : unsigned
     kBloomCommandWritten = 6,
     kExposureWritten = 7,
     kDrawCommands = 6,  // each of these is bound where it is used
+    kLampClusters = 7,  // until something is exposed
     kSceneDepth = 0,
     kMasks = 1,
     kDepthTiles = 2,
+    kShadowMaps = 3,
+    kSnowDepths = 4,
 };
 
 }  // namespace spindrift::gl

@@ -12,6 +12,7 @@
 #include "core/visibility.h"
 #include "gl/active_lights.h"
 #include "gl/bloom_shape.h"
+#include "gl/cluster_lamps.h"
 #include "gl/pass_cost.h"
 #include "scene/air.h"
 
@@ -119,11 +120,56 @@ PlannedPass plan_lights(const Facts& facts)
     if (facts.lights.lamps.empty())
         return left_out("lights", dark.empty() ? "the scene has no lights: ambient only"
                                                : fmt::format("no light counts now ({}): ambient only", dark));
+    const std::size_t lamps = facts.lights.lamps.size(), ending = count_bounded(facts.lights.lamps);
+    std::string reach;
+    if (lamps > 1)
+        reach = ending == lamps ? ", each where it reaches"
+                                : fmt::format(", {} of them everywhere: no range", lamps - ending);
+    return runs("lights",
+                fmt::format("{} light{} on{}{}", lamps, lamps == 1 ? "" : "s", reach,
+                            dark.empty() ? "" : fmt::format("; left out: {}", dark)),
+                "light table, display time", "lights");
+}
+
+/// The lights that cast shadows by their maps, and how they are looked up.
+LitBy lit_by(const Facts& facts, const ShadowCast& cast)
+{
+    LitBy lit;
+    lit.lights = facts.lights.lamps.size();
+    lit.maps = !cast.lamps.empty() && facts.has_solids;
+    lit.snow = !cast.lamps.empty() && facts.scene.shadows.snow_slices > 0 && facts.has_flakes &&
+               facts.scene.render.blending != Blending::additive;
+    if (lit.maps || lit.snow) lit.shadows = cast.lamps.size();
+    return lit;
+}
+
+PlannedPass plan_shadows(const Facts& facts, const LitBy& lit, const ShadowCast& cast)
+{
+    if (!facts.has_solids) return left_out("shadows", "no ground, box or model");
+    if (!lit.maps) return left_out("shadows", "no light that shines casts shadows");
+    if (cast == facts.last.shadows)
+        return left_out("shadows", "lights and what stands before them are at rest: the maps of before hold");
+    const int px = facts.scene.shadows.map_px;
+    return runs("shadows",
+                fmt::format("{} map{} of {} x {} px", lit.shadows, lit.shadows == 1 ? "" : "s", px, px),
+                "meshes, lights", "shadow maps");
+}
+
+PlannedPass plan_snow_shade(const Facts& facts, const LitBy& lit, const ShadowCast& cast)
+{
+    if (cast.lamps.empty()) return left_out("snow shade", "no light that shines casts shadows");
+    if (facts.scene.shadows.snow_slices == 0)
+        return left_out("snow shade", "the scene asks for no slices: flakes do not dim light");
+    if (!facts.has_flakes) return left_out("snow shade", "no flakes are alive");
+    if (!lit.snow) return left_out("snow shade", "additive flakes hide nothing");
+    if (facts.last.snow_shaded && !facts.last.flakes_moved && cast == facts.last.shadows)
+        return left_out("snow shade", "flakes and lights are at rest: the slices of before hold");
+    const scene::ShadowSettings& shadows = facts.scene.shadows;
     return runs(
-        "lights",
-        fmt::format("{} light{} on{}", facts.lights.lamps.size(), facts.lights.lamps.size() == 1 ? "" : "s",
-                    dark.empty() ? "" : fmt::format("; left out: {}", dark)),
-        "light table, display time", "lights");
+        "snow shade",
+        fmt::format("flakes dim {} light{}: {} slices of {} x {} px each", lit.shadows,
+                    lit.shadows == 1 ? "" : "s", shadows.snow_slices, shadows.snow_px, shadows.snow_px),
+        "flakes, lights", "snow slices");
 }
 
 PlannedPass plan_scene(const Facts& facts)
@@ -348,6 +394,37 @@ bool FramePlan::runs(std::string_view name) const
                        [&](const PlannedPass& pass) { return pass.name == name && pass.runs; });
 }
 
+bool Moving::operator==(const Moving& other) const
+{
+    const auto same = [](const Vec3f& a, const Vec3f& b) { return a.x == b.x && a.y == b.y && a.z == b.z; };
+    const auto same_lamp = [&](const Lamp<float>& a, const Lamp<float>& b)
+    {
+        return a.kind == b.kind && same(a.position_m, b.position_m) && same(a.direction, b.direction) &&
+               same(a.intensity, b.intensity);  // the rest of a lamp never changes
+    };
+    return std::equal(lamps.begin(), lamps.end(), other.lamps.begin(), other.lamps.end(), same_lamp) &&
+           std::equal(vehicles.begin(), vehicles.end(), other.vehicles.begin(), other.vehicles.end(), same);
+}
+
+namespace
+{
+
+/// Flakes turn, and an exposure adapts, also where nothing moves.
+bool stands_still(const Facts& facts, const Moving& moving)
+{
+    return !facts.has_flakes && !facts.last.camera_moved && !facts.scene.render.auto_exposure &&
+           facts.last.shown && *facts.last.shown == moving;
+}
+
+void leave_all_out(FramePlan& plan)
+{
+    for (PlannedPass& pass : plan.passes)
+        if (pass.runs)
+            pass = left_out(pass.name, "no flakes are alive and nothing moves: the picture of before holds");
+}
+
+}  // namespace
+
 FramePlan plan_frame(const scene::Scene& scene, const View& view, const FrameStats& last, double time_s,
                      std::span<const scene::Light> model_lights, GlKind gl)
 {
@@ -356,6 +433,10 @@ FramePlan plan_frame(const scene::Scene& scene, const View& view, const FrameSta
     plan.passes.push_back(plan_cull(facts));
     plan.passes.push_back(plan_sort(facts));
     plan.passes.push_back(plan_lights(facts));
+    plan.shadows = shadow_cast(scene, facts.lights.lamps, time_s);
+    plan.lit = lit_by(facts, plan.shadows);
+    plan.passes.push_back(plan_shadows(facts, plan.lit, plan.shadows));
+    plan.passes.push_back(plan_snow_shade(facts, plan.lit, plan.shadows));
     plan.passes.push_back(plan_scene(facts));
     plan.passes.push_back(runs("sky", "fills what the scene leaves free", "depth", "picture"));
     plan.passes.push_back(plan_fog(facts));
@@ -368,6 +449,9 @@ FramePlan plan_frame(const scene::Scene& scene, const View& view, const FrameSta
     const bool blooms = plan.passes.back().runs;
     plan.tone_in_tiles = tone_in_tiles(facts, blooms);
     plan.passes.push_back(plan_tone(facts, blooms, plan.tone_in_tiles));
+    plan.shown = {facts.lights.lamps, plan.shadows.vehicles};
+    plan.still = stands_still(facts, plan.shown);
+    if (plan.still) leave_all_out(plan);
     for (PlannedPass& pass : plan.passes)
         if (pass.runs) pass.cost = pass_cost(pass.name, scene, view, last);
     return plan;

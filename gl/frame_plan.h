@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,10 +11,20 @@
 
 #include "core/flake.h"
 #include "core/view.h"
+#include "gl/lamp_lens.h"
+#include "gl/lit_program.h"
 #include "scene/scene.h"
 
 namespace spindrift::gl
 {
+
+/// What may change in a picture without flakes whose camera is at rest.
+struct Moving
+{
+    std::vector<Lamp<float>> lamps;
+    std::vector<Vec3f> vehicles;  ///< that carry models
+    bool operator==(const Moving& other) const;
+};
 
 /// What the last frame told, for decisions of the next.
 struct FrameStats
@@ -25,6 +36,10 @@ struct FrameStats
     bool exposed = false;  ///< the exposure of this display time is known: the other eye of a pair was drawn
     /// Largest channel of what any surface emits; infinite where nobody looked.
     double brightest_emission = std::numeric_limits<double>::infinity();
+    /// By what the last picture of this size was lit and where its vehicles stood; nothing if there is none.
+    std::optional<Moving> shown;
+    ShadowCast shadows;        ///< for which the maps of the last frame were drawn
+    bool snow_shaded = false;  ///< the snow's slices of the last frame were drawn, too
 };
 
 /// An estimate that holds on any machine: what a pass touches. Overdraw is not foreseen.
@@ -48,6 +63,10 @@ struct FramePlan
 {
     std::vector<PlannedPass> passes;
     bool tone_in_tiles = false;  ///< the tiles are developed where they are blended, not by a pass of its own
+    LitBy lit;                   ///< by what the lit passes are lit, maps that hold from before included
+    ShadowCast shadows;          ///< what the maps depend on
+    Moving shown;
+    bool still = false;  ///< nothing runs: the picture of before holds
     bool runs(std::string_view name) const;
 };
 

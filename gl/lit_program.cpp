@@ -21,17 +21,21 @@ ByAir::ByAir(std::array<std::string_view, 2> files, std::vector<std::string_view
     programs_[2] = LitProgram(files, std::move(defines));
 }
 
-GLuint LitProgram::for_lights(std::size_t count) const
+GLuint LitProgram::for_lights(const LitBy& lit) const
 {
-    const std::size_t variant = std::min(count, kMostUnrolled + 1);
-    if (!variants_[variant])
-    {
-        std::vector<std::string_view> defines = defines_;
-        const std::string number = "LIGHTS " + std::to_string(variant);
-        if (variant <= kMostUnrolled) defines.push_back(number);
-        variants_[variant] = make_program(files_, defines);
-    }
-    return variants_[variant].name();
+    LitBy variant = lit;
+    variant.lights = std::min(lit.lights, kMostUnrolled + 1);
+    Program& program = variants_[variant];
+    if (program) return program.name();
+    std::vector<std::string_view> defines = defines_;
+    const std::string lights = "LIGHTS " + std::to_string(variant.lights);
+    const std::string shadows = "SHADOWS " + std::to_string(variant.shadows);
+    if (variant.lights <= kMostUnrolled) defines.push_back(lights);
+    if (variant.shadows > 0) defines.push_back(shadows);
+    if (variant.maps) defines.emplace_back("SHADOW_MAPS");
+    if (variant.snow) defines.emplace_back("SNOW_SHADE");
+    program = make_program(files_, defines);
+    return program.name();
 }
 
 }  // namespace spindrift::gl

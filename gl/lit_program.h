@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <compare>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +12,16 @@
 
 namespace spindrift::gl
 {
+
+/// By what a frame is lit.
+struct LitBy
+{
+    std::size_t lights = 0;
+    std::size_t shadows = 0;  ///< the first so many lights cast them
+    bool maps = false;        ///< of the scene
+    bool snow = false;        ///< flakes dim the light
+    auto operator<=>(const LitBy&) const = default;
+};
 
 /// A program that loops over the active lights, in one variant per small number of them: software GL reads a
 /// light whose index is known when it compiles an order faster. Variants are made when they are first asked
@@ -20,13 +32,15 @@ class LitProgram
     LitProgram() = default;
     LitProgram(std::array<std::string_view, 2> files, std::vector<std::string_view> defines = {});
 
-    GLuint for_lights(std::size_t count) const;
+    GLuint for_lights(const LitBy& lit) const;
+
+    /// More lights than this are read from a buffer, each where it counts (LampClusters).
+    static constexpr std::size_t kMostUnrolled = 8;
 
   private:
-    static constexpr std::size_t kMostUnrolled = 8;
     std::array<std::string_view, 2> files_;
     std::vector<std::string_view> defines_;
-    mutable std::array<Program, kMostUnrolled + 2> variants_;  // the last one takes any number
+    mutable std::map<LitBy, Program> variants_;  // one takes any number of lights above the unrolled ones
 };
 
 /// Whether snow between things dims light.

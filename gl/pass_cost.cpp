@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gl/pass_cost.h"
 
+#include <algorithm>
+
 #include "gl/bloom_shape.h"
 
 namespace spindrift::gl
@@ -16,6 +18,7 @@ constexpr double kPair = 8;    // of the draw list
 constexpr double kPlace = 12;  // three floats of a flake
 constexpr double kId = 4;
 constexpr double kFate = 4;
+constexpr double kCell = 4;  // of the snow's slices
 
 /// `elements` of so many bytes, read and written.
 PassCost touching(double elements, double bytes)
@@ -39,6 +42,16 @@ PassCost pass_cost(std::string_view pass, const scene::Scene& scene, const View&
     const double sort_passes = scene.render.depth_bits == 32 ? 3 : 2;  // of the radix sort
     if (pass == "cull") return touching(alive, kPlace + kFate + kPair);
     if (pass == "sort") return touching(drawn, kPair * (1 + 2 * sort_passes));
+    const auto casters = static_cast<double>(std::count_if(
+        scene.lights.begin(), scene.lights.end(), [](const scene::Light& light) { return light.shadow; }));
+    if (pass == "shadows") return touching(casters * scene.shadows.map_px * scene.shadows.map_px, kDepth);
+    if (pass == "snow shade")
+    {
+        const double texels = casters * scene.shadows.snow_px * scene.shadows.snow_px;
+        const PassCost flakes = touching(casters * alive, kPlace + kId + kFate + 4 * kCell),
+                       sums = touching(texels * scene.shadows.snow_slices, 2 * kCell + kDepth);
+        return {flakes.megabytes + sums.megabytes, flakes.million_elements + sums.million_elements};
+    }
     if (pass == "scene") return touching(pixels, kColour + kDepth);
     if (pass == "sky") return touching(pixels, kColour + kDepth);
     if (pass == "fog") return touching(pixels, 2 * kColour + 3 * kDepth);

@@ -12,15 +12,18 @@
 #include "gl/active_lights.h"
 #include "gl/air_pass.h"
 #include "gl/bloom_pass.h"
+#include "gl/cluster_lamps.h"
 #include "gl/crystal_texture.h"
 #include "gl/exposure_pass.h"
 #include "gl/flake_look.h"
 #include "gl/flake_pass.h"
 #include "gl/frame_constants.h"
 #include "gl/full_screen_pass.h"
+#include "gl/lit_program.h"
 #include "gl/pass_timers.h"
 #include "gl/picture.h"
 #include "gl/scene_pass.h"
+#include "gl/shadow_pass.h"
 #include "gl/tile_pass.h"
 #include "gl/tone_pass.h"
 #include "scene/crystals.h"
@@ -58,18 +61,24 @@ struct Renderer::Impl
     Texture mask_texture;
     Picture picture;
     ScenePass scene_pass;
+    ShadowPass shadow_pass;
+    const FlakeBuffers& flake_buffers;
     FullScreenPass sky, depth_tiles;
     AirPass air;
     FlakePass flakes;
     ExposurePass exposure;
     std::optional<BloomPass> bloom;  ///< made when a plan first asks for it
     TonePass tone;
-    std::optional<TonePass> low_range;  ///< made when it is first asked for
+    std::optional<TonePass> low_range;              ///< made when it is first asked for
+    bool low_range_shown = false, bloomed = false;  ///< of the display picture
     TilePass tiles;
     Splatter* splatter;
     Buffer frame_block;
     Buffer light_buffer;
     std::size_t light_room = 0;
+    ClusteredLamps clusters;
+    Buffer cluster_buffer;
+    std::size_t cluster_room = 0;
     PassTimers timers;
     bool fenced;  // the host writes the flakes
     GLsync flakes_read = nullptr;
@@ -83,6 +92,8 @@ struct Renderer::Impl
           mask_texture(make_crystal_texture(masks)),
           picture(width, height),
           scene_pass(s, geometry),
+          shadow_pass(s, geometry, w),
+          flake_buffers(buffers),
           sky("sky.vert", "sky.frag"),
           depth_tiles("full_screen.vert", "depth_tiles.frag"),
           air(s),
@@ -103,14 +114,19 @@ struct Renderer::Impl
     Impl& operator=(const Impl&) = delete;
 
     void upload_lights(const std::vector<Lamp<float>>& lamps);
+    void cluster_lights(const std::vector<Lamp<float>>& lamps, const View& view);
     /// How often flakes get the ambient light: once; as the report prints it, for each lamp.
     std::uint32_t flake_ambient_times(std::size_t lights) const;
     FrameConstants constants(const View& view, std::size_t lights, double time_s) const;
-    void draw_solid(const FramePlan& plan, const View& view, std::size_t lights, double time_s);
-    void draw_air(const FramePlan& plan, std::size_t lights);
-    void draw_flakes(const FramePlan& plan, const View& view, const DrawList& list, std::size_t lights);
+    void draw_shadows(const FramePlan& plan, const std::vector<Lamp<float>>& lamps, std::uint64_t slots,
+                      double time_s);
+    void draw_solid(const FramePlan& plan, const View& view, double time_s);
+    void draw_air(const FramePlan& plan);
+    void draw_flakes(const FramePlan& plan, const View& view, const DrawList& list);
     void prepare_depth();
     void develop(const FramePlan& plan, double time_s);
+    void show_again();
+    void draw_tone(const TonePass& curve, const BloomPass* spread);
     void draw_tiles(const FramePlan& plan, const TilePass::Frame& frame);
 
     template <class Draw>
@@ -137,6 +153,23 @@ void Renderer::Impl::upload_lights(const std::vector<Lamp<float>>& lamps)
                              static_cast<GLsizeiptr>(lights.size() * sizeof(PackedLight)), lights.data());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kLights, light_buffer.name());
     glBindBufferBase(GL_UNIFORM_BUFFER, kFewLights, light_buffer.name());
+}
+
+void Renderer::Impl::cluster_lights(const std::vector<Lamp<float>>& lamps, const View& view)
+{
+    // A single lamp that ends somewhere is soon computed for nothing; few lights are all unrolled by GL.
+    const bool many = lamps.size() > LitProgram::kMostUnrolled;
+    clusters = many || count_bounded(lamps) > 1 ? ClusteredLamps(lamps, view) : ClusteredLamps();
+    if (!many) return;
+    const std::vector<std::uint32_t> packed = pack(clusters.view());
+    if (packed.size() > cluster_room)
+    {
+        cluster_room = packed.size();
+        cluster_buffer =
+            make_buffer(static_cast<GLsizeiptr>(cluster_room * 4), nullptr, GL_DYNAMIC_STORAGE_BIT);
+    }
+    glNamedBufferSubData(cluster_buffer.name(), 0, static_cast<GLsizeiptr>(packed.size() * 4), packed.data());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kLampClusters, cluster_buffer.name());
 }
 
 std::uint32_t Renderer::Impl::flake_ambient_times(std::size_t lights) const
@@ -173,7 +206,17 @@ FrameConstants Renderer::Impl::constants(const View& view, std::size_t lights, d
     return c;
 }
 
-void Renderer::Impl::draw_solid(const FramePlan& plan, const View& view, std::size_t lights, double time_s)
+void Renderer::Impl::draw_shadows(const FramePlan& plan, const std::vector<Lamp<float>>& lamps,
+                                  std::uint64_t slots, double time_s)
+{
+    const bool dims_lamps = plan.runs("fog") && scene.air.law == scene::FogLaw::exponential;
+    if (plan.runs("shadows")) timed("shadows", [&] { shadow_pass.draw_scene(scene_pass, lamps, time_s); });
+    if (plan.runs("snow shade"))
+        timed("snow shade", [&] { shadow_pass.draw_snow(flake_buffers, slots, lamps, time_s, dims_lamps); });
+    shadow_pass.bind(plan.lit);
+}
+
+void Renderer::Impl::draw_solid(const FramePlan& plan, const View& view, double time_s)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, picture.linear_target.name());
     glViewport(0, 0, picture.width, picture.height);
@@ -185,31 +228,30 @@ void Renderer::Impl::draw_solid(const FramePlan& plan, const View& view, std::si
     constexpr GLfloat far_depth = 0;
     glClearNamedFramebufferfv(picture.linear_target.name(), GL_DEPTH, 0, &far_depth);
     if (plan.runs("scene"))
-        timed("scene", [&] { scene_pass.draw(view.eye, lights, time_s, air_kind(plan)); });
+        timed("scene", [&] { scene_pass.draw(view.eye, plan.lit, time_s, air_kind(plan)); });
     glDepthMask(GL_FALSE);
     if (plan.runs("sky"))
     {
         glDepthFunc(GL_GEQUAL);
         timed("sky", [&] { sky.draw(); });
     }
-    draw_air(plan, lights);
+    draw_air(plan);
 }
 
-void Renderer::Impl::draw_air(const FramePlan& plan, std::size_t lights)
+void Renderer::Impl::draw_air(const FramePlan& plan)
 {
     if (!plan.runs("fog")) return;
     timed("fog",
           [&]
           {
               picture.copy_depth();
-              air.draw_fog(picture.depth_copy.name(), lights);
+              air.draw_fog(picture.depth_copy.name(), plan.lit);
           });
     if (plan.runs("airlight"))
-        timed("airlight", [&] { air.draw_airlight(picture.depth_copy.name(), lights); });
+        timed("airlight", [&] { air.draw_airlight(picture.depth_copy.name(), plan.lit); });
 }
 
-void Renderer::Impl::draw_flakes(const FramePlan& plan, const View& view, const DrawList& list,
-                                 std::size_t lights)
+void Renderer::Impl::draw_flakes(const FramePlan& plan, const View& view, const DrawList& list)
 {
     const bool fades = plan.runs("fade");
     if (fades) timed("fade", [&] { prepare_depth(); });
@@ -217,7 +259,7 @@ void Renderer::Impl::draw_flakes(const FramePlan& plan, const View& view, const 
     glBindTextureUnit(kMasks, mask_texture.name());
     timed("flakes",
           [&] {
-              flakes.draw({view, list, fades ? picture.depth_copy.name() : 0, lights, air_kind(plan)});
+              flakes.draw({view, list, fades ? picture.depth_copy.name() : 0, plan.lit, air_kind(plan)});
           });
     if (!fenced) return;
     if (flakes_read != nullptr) glDeleteSync(flakes_read);
@@ -259,10 +301,24 @@ void Renderer::Impl::develop(const FramePlan& plan, double time_s)
     const bool blooms = plan.runs("bloom");
     if (blooms && !bloom) bloom.emplace(scene.bloom, picture.width, picture.height);
     if (blooms) timed("bloom", [&] { bloom->draw(linear); });
-    if (!plan.runs("tone")) return;
+    bloomed = blooms;
+    if (plan.runs("tone")) timed("tone", [&] { draw_tone(tone, blooms ? &*bloom : nullptr); });
+}
+
+void Renderer::Impl::draw_tone(const TonePass& curve, const BloomPass* spread)
+{
     glBindFramebuffer(GL_FRAMEBUFFER, picture.display_target.name());
     glViewport(0, 0, picture.width, picture.height);
-    timed("tone", [&] { tone.draw(linear, blooms ? &*bloom : nullptr); });
+    curve.draw(picture.linear.name(), spread);
+    low_range_shown = &curve != &tone;
+}
+
+/// The last frame holds, but may have been developed otherwise since.
+void Renderer::Impl::show_again()
+{
+    if (!low_range_shown) return;
+    exposure.bind();
+    draw_tone(tone, bloomed ? &*bloom : nullptr);
 }
 
 Renderer::Renderer(const scene::Scene& scene, const scene::Geometry& geometry, const World& world,
@@ -275,6 +331,7 @@ Renderer::~Renderer() = default;
 void Renderer::draw(const FramePlan& plan, const View& view, const DrawList& flakes, double time_s)
 {
     Impl& m = *impl_;
+    if (plan.still) return m.show_again();
     if (view.width_px != m.picture.width || view.height_px != m.picture.height)
         resize(view.width_px, view.height_px);
     m.tiles.discard();
@@ -288,15 +345,18 @@ void Renderer::draw(const FramePlan& plan, const View& view, const DrawList& fla
     glBindBufferBase(GL_UNIFORM_BUFFER, kFrameBlock, m.frame_block.name());
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     m.air.prepare(plan, view, time_s);
-    m.draw_solid(plan, view, lights.size(), time_s);
-    m.draw_flakes(plan, view, flakes, lights.size());
+    m.draw_shadows(plan, lights, flakes.slots, time_s);
+    m.cluster_lights(lights, view);  // its binding is used before
+    m.draw_solid(plan, view, time_s);
+    m.draw_flakes(plan, view, flakes);
     const bool in_tiles = plan.runs("tiles");
     if (in_tiles)
     {
         const scene::Colour& ambient = m.scene.sky.ambient;
         const auto times = static_cast<float>(m.flake_ambient_times(lights.size()));
-        m.draw_tiles(plan, {view, flakes, lights, Vec3f{ambient.r, ambient.g, ambient.b} * times,
-                            m.air.before_flakes(), time_s});
+        m.draw_tiles(plan,
+                     {view, flakes, lights, m.clusters.view(), Vec3f{ambient.r, ambient.g, ambient.b} * times,
+                      m.air.before_flakes(), m.shadow_pass.on_host(plan.lit), time_s});
     }
     if (!in_tiles || !plan.tone_in_tiles) m.develop(plan, time_s);
 }
@@ -371,9 +431,7 @@ void Renderer::develop_low_range()
         m.low_range.emplace(plain);
     }
     m.exposure.bind();
-    glBindFramebuffer(GL_FRAMEBUFFER, m.picture.display_target.name());
-    glViewport(0, 0, m.picture.width, m.picture.height);
-    m.low_range->draw(m.picture.linear.name(), nullptr);
+    m.draw_tone(*m.low_range, nullptr);
 }
 
 void Renderer::present(int framebuffer_width, int framebuffer_height)

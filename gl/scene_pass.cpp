@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/surface.h"
+#include "gl/lamp_lens.h"
 #include "scene/make_world.h"
 
 namespace spindrift::gl
@@ -58,6 +59,7 @@ ScenePass::Body ScenePass::make_body(const scene::Scene& scene, const scene::Mes
     body.materials = mesh.materials;
     body.vertices = upload(mesh.vertices);
     body.indices = upload(clustered.indices);
+    body.indices_count = static_cast<GLsizei>(clustered.indices.size());
     body.array = make_vertex_array();
     const GLuint array = body.array.name();
     glVertexArrayVertexBuffer(array, 0, body.vertices.name(), 0, sizeof(scene::Vertex));
@@ -76,8 +78,13 @@ ScenePass::Body ScenePass::make_body(const scene::Scene& scene, const scene::Mes
 ScenePass::ScenePass(const scene::Scene& scene, const scene::Geometry& geometry)
     : matt_(kMeshFiles), shiny_(kMeshFiles, {"SHINY"}), domain_(scene.domain)
 {
+    const float lowest_m = lowest_of(geometry);
     for (const scene::Mesh& mesh : geometry.meshes)
-        if (!mesh.vertices.empty() && !mesh.parts.empty()) bodies_.push_back(make_body(scene, mesh));
+    {
+        if (mesh.vertices.empty() || mesh.parts.empty()) continue;
+        bodies_.push_back(make_body(scene, mesh));
+        bodies_.back().casts = casts_shadow(mesh, lowest_m);
+    }
 }
 
 Vec3f ScenePass::offset_of(const Body& body, double time_s) const
@@ -103,7 +110,7 @@ std::vector<ScenePass::Draw> ScenePass::near_to_far(const Vec3f& eye, double tim
     return draws;
 }
 
-void ScenePass::draw(const Vec3f& eye, std::size_t lights, double time_s, AirKind air) const
+void ScenePass::draw(const Vec3f& eye, const LitBy& lit, double time_s, AirKind air) const
 {
     if (bodies_.empty()) return;
     glDepthFunc(GL_GREATER);
@@ -111,13 +118,25 @@ void ScenePass::draw(const Vec3f& eye, std::size_t lights, double time_s, AirKin
     {
         const MeshCluster& cluster = *draw.cluster;
         const scene::Material& material = draw.body->materials.at(static_cast<std::size_t>(cluster.material));
-        const GLuint program = (shines(material) ? shiny_ : matt_).in(air).for_lights(lights);
+        const GLuint program = (shines(material) ? shiny_ : matt_).in(air).for_lights(lit);
         glUseProgram(program);
         glProgramUniform3f(program, kOffset, draw.offset_m.x, draw.offset_m.y, draw.offset_m.z);
         set_material(program, material);
         glBindVertexArray(draw.body->array.name());
         glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(cluster.count), GL_UNSIGNED_INT,
                        reinterpret_cast<const void*>(cluster.first * sizeof(std::uint32_t)));
+    }
+}
+
+void ScenePass::draw_casters(GLuint program, double time_s) const
+{
+    for (const Body& body : bodies_)
+    {
+        if (!body.casts) continue;
+        const Vec3f offset = offset_of(body, time_s);
+        glProgramUniform3f(program, kOffset, offset.x, offset.y, offset.z);
+        glBindVertexArray(body.array.name());
+        glDrawElements(GL_TRIANGLES, body.indices_count, GL_UNSIGNED_INT, nullptr);
     }
 }
 

@@ -18,7 +18,9 @@ class ScenePass
 {
   public:
     ScenePass(const scene::Scene& scene, const scene::Geometry& geometry);
-    void draw(const Vec3f& eye, std::size_t lights, double time_s, AirKind air) const;
+    void draw(const Vec3f& eye, const LitBy& lit, double time_s, AirKind air) const;
+    /// Only what casts shadows, by a program whose uniform 0 is the place of its vehicle.
+    void draw_casters(GLuint program, double time_s) const;
 
   private:
     struct Body
@@ -26,6 +28,8 @@ class ScenePass
         Buffer vertices, indices;
         VertexArray array;
         std::vector<MeshCluster> clusters;
+        GLsizei indices_count = 0;
+        bool casts = true;  ///< shadows
         std::vector<scene::Material> materials;
         std::optional<scene::VehicleSettings> vehicle;
     };

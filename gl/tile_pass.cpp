@@ -96,6 +96,8 @@ SplatJob TilePass::job(const Frame& frame) const
     job.air = frame.air;
     job.lamps = frame.lamps.data();
     job.lamp_count = frame.lamps.size();
+    job.shadows = frame.shadows;
+    job.clusters = frame.clusters;
     job.crystals = crystals_;
     job.flakes = buffers_.flakes();
     const DrawListView lists = buffers_.draw_list();

@@ -29,8 +29,10 @@ class TilePass
         const View& view;
         const DrawList& list;
         const std::vector<Lamp<float>>& lamps;
+        LampClusters clusters;
         Vec3f ambient;  ///< of flakes
         SplatAir air;
+        LampShadows shadows;
         double time_s;
     };
     /// The light alone, into picture.linear.

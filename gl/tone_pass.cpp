@@ -54,6 +54,7 @@ const FullScreenPass& TonePass::variant(bool blooms) const
     if (variant) return *variant;
     std::vector<std::string_view> defines{curve_define(tone_.curve)};
     if (blooms) defines.emplace_back("BLOOM");
+    if (blooms && bloom_.method == scene::BloomMethod::legacy) defines.emplace_back("REPORT");
     if (dither_) defines.emplace_back("DITHER");
     variant.emplace("develop.vert", "tone.frag", defines);
     const glm::vec3 bright = bright_uniform(bloom_);

@@ -67,7 +67,13 @@ image::Image bright_picture(const image::Image& linear, double exposure, const s
     image::Image out(linear.width, linear.height);
     for (int y = 0; y < linear.height; ++y)
         for (int x = 0; x < linear.width; ++x)
-            set(out, x, y, bright_part(light_at(linear, x, y) * exposure, scene::bright_of(bloom)));
+        {
+            const Vec3d light = light_at(linear, x, y) * exposure;
+            set(out, x, y,
+                bloom.method == scene::BloomMethod::legacy
+                    ? report_bright_part(light, scene::bright_of(bloom))
+                    : bright_part(light, scene::bright_of(bloom)));
+        }
     return out;
 }
 

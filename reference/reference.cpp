@@ -105,7 +105,10 @@ image::Image render(const scene::Scene& scene, const scene::Geometry& geometry, 
 {
     const RayScene solids(scene, geometry, time_s);
     const scene::Air air = scene::air_at(scene, view, time_s);
-    const Lighting lighting = lighting_at(scene, geometry, air, time_s);
+    Lighting lighting = lighting_at(scene, geometry, air, time_s);
+    const Shadows shadows(scene, world, flakes, used, solids, lighting.lights,
+                          lighting.air.uniform_per_m > 0 || lighting.air.drift_per_m > 0);
+    lighting.shadows = &shadows;
     static const std::vector<scene::CrystalMask> crystals = scene::grow_crystals();
     const std::vector<Sprite> sprites = make_sprites(scene, world, flakes, used, view, air, lighting, time_s);
     const Frame frame{scene, world, view, solids, air, lighting, crystals, sprites};

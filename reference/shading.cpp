@@ -42,6 +42,7 @@ Lamp<double> lamp_of(const scene::Light& light, const scene::Scene& scene, doubl
     lamp.range_m = light.range_m;
     lamp.cos_inner = cosine(light.inner_cone_deg);
     lamp.cos_outer = cosine(light.outer_cone_deg);
+    lamp.casts_shadow = light.shadow;
     lamp.phase = {light.phase, light.g, light.g_back, light.back_share};
     if (scene.render.scattering == scene::Scattering::legacy) lamp.phase = turned_round(lamp.phase);
     return lamp;
@@ -86,10 +87,12 @@ FlakeLight flake_light(const Lighting& lighting, const View& view, const Vec3d& 
     FlakeLight out;
     out.ambient = lighting.flake_ambient;
     Vec3d mean{0, 0, 0};
-    for (const Lamp<double>& lamp : lighting.lights)
+    for (std::size_t i = 0; i < lighting.lights.size(); ++i)
     {
+        const Lamp<double>& lamp = lighting.lights[i];
         LampLight<double> from = lamp_light(lamp, flake);
-        from.irradiance = from.irradiance * reaching(lighting.air, lamp, flake);
+        from.irradiance =
+            from.irradiance * (reaching(lighting.air, lamp, flake) * lighting.reaches(i, flake));
         out.lamps = out.lamps + scattered(from, lamp.phase, to_eye);
         mean = mean + from.towards * luminance(from.irradiance);
     }
@@ -108,10 +111,13 @@ Rgb surface_radiance(const Lighting& lighting, const Hit& hit, const Vec3d& plac
                                     ? gloss_of(albedo, double{material.roughness}, double{material.metallic})
                                     : Gloss<double>{{}, albedo, 0};
     Rgb sum = product(albedo, lighting.ambient) * (0.75 + 0.25 * hit.normal.z) + rgb(material.emission);
-    for (const Lamp<double>& lamp : lighting.lights)
+    constexpr double kOff_m = 1e-6;  // a surface does not hide itself
+    for (std::size_t i = 0; i < lighting.lights.size(); ++i)
     {
+        const Lamp<double>& lamp = lighting.lights[i];
         const LampLight<double> from = lamp_light(lamp, place);
-        const double share = reaching(lighting.air, lamp, place);
+        const double share =
+            reaching(lighting.air, lamp, place) * lighting.reaches(i, place + hit.normal * kOff_m);
         const double facing = std::max(dot(hit.normal, from.towards), 0.0) * share / std::numbers::pi;
         sum = sum + product(gloss.matt, from.irradiance) * facing;
         if (!shiny) continue;
@@ -136,11 +142,19 @@ AirView air_before(const scene::Scene& scene, const scene::Air& air, const Light
     else
         seen.clear = std::exp(-path.of_fog(distance_m));
     Rgb source = lighting.flake_ambient;
-    for (const Lamp<double>& lamp : lighting.lights)
+    for (std::size_t i = 0; i < lighting.lights.size(); ++i)
+    {
+        const Lamp<double>& lamp = lighting.lights[i];
+        const auto reach = [&](const Vec3d& place) { return lighting.reaches(i, place); };
         if (lamp.kind == LampKind::directional)
-            source = source + lamp.intensity * scattered_share(lamp.phase, -dot(lamp.direction, way));
+        {
+            const double share = lamp.casts_shadow ? share_in_fog(path, distance_m, reach) : 1;
+            source =
+                source + lamp.intensity * (share * scattered_share(lamp.phase, -dot(lamp.direction, way)));
+        }
         else if (scene.air.airlight && air.law == scene::FogLaw::exponential)
-            seen.glow = seen.glow + airlight_to(path, lamp, distance_m);
+            seen.glow = seen.glow + airlight_to(path, lamp, distance_m, reach);
+    }
     seen.glow = seen.glow + source * (1 - seen.clear);
     return seen;
 }

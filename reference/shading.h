@@ -7,6 +7,7 @@
 #include "core/vec.h"
 #include "core/view.h"
 #include "reference/ray_scene.h"
+#include "reference/shadows.h"
 #include "scene/air.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
@@ -39,6 +40,13 @@ struct Lighting
     Rgb ambient{};        ///< of surfaces
     Rgb flake_ambient{};  ///< of flakes and fog
     AirLayers<double> air;
+    const Shadows* shadows = nullptr;  ///< none: every lamp reaches everything
+
+    /// Share of a lamp's light that gets past what stands between.
+    double reaches(std::size_t lamp, const Vec3d& place) const
+    {
+        return shadows == nullptr ? 1 : shadows->share(lamp, place);
+    }
 };
 Lighting lighting_at(const scene::Scene& scene, const scene::Geometry& geometry, const scene::Air& air,
                      double time_s);

@@ -27,13 +27,8 @@ const EmitterSettings* sky_of(const Scene& scene)
     return sky == scene.emitters.end() ? nullptr : &*sky;
 }
 
-struct Box
-{
-    Vec3d low, high;
-};
-
 /// The sky's box where it is then, cut at the ground and the domain; local frame.
-Box sky_box(const Scene& scene, const EmitterSettings& sky, double time_s)
+FlakeBox sky_box(const Scene& scene, const EmitterSettings& sky, double time_s)
 {
     Vec3d centre = sky.a - scene.domain.min_m;
     if (sky.follows == "camera") centre = wide(camera_at(scene, time_s).eye);
@@ -41,7 +36,7 @@ Box sky_box(const Scene& scene, const EmitterSettings& sky, double time_s)
         if (!sky.follows.empty() && vehicle.name == sky.follows)
             centre = wide(vehicle_at(vehicle, scene.domain, time_s));
     const Vec3d half = sky.b * 0.5, size = scene.domain.max_m - scene.domain.min_m;
-    Box box{centre - half, centre + half};
+    FlakeBox box{centre - half, centre + half};
     const double floor =
         scene.ground.kind == GroundKind::none ? 0 : scene.ground.height_m - scene.domain.min_m.z;
     box.low = {std::max(box.low.x, 0.0), std::max(box.low.y, 0.0), std::max({box.low.z, 0.0, floor})};
@@ -49,7 +44,7 @@ Box sky_box(const Scene& scene, const EmitterSettings& sky, double time_s)
     return box;
 }
 
-double volume_of(const Box& box)
+double volume_of(const FlakeBox& box)
 {
     const Vec3d size = box.high - box.low;
     return std::min({size.x, size.y, size.z}) > 0 ? size.x * size.y * size.z : 0;
@@ -78,6 +73,13 @@ double visibility_share(const Scene& scene)
 }
 
 }  // namespace
+
+FlakeBox flake_box(const Scene& scene, double time_s)
+{
+    const EmitterSettings* sky = sky_of(scene);
+    if (sky != nullptr && scene.emitters.size() == 1) return sky_box(scene, *sky, time_s);
+    return {{0, 0, 0}, scene.domain.max_m - scene.domain.min_m};
+}
 
 double uniform_extinction(const Scene& scene)
 {
@@ -132,7 +134,7 @@ void move_volume(Air& air, const Scene& scene, double time_s)
 {
     const EmitterSettings* sky = sky_of(scene);
     if (sky == nullptr) return;
-    const Box box = sky_box(scene, *sky, time_s);
+    const FlakeBox box = sky_box(scene, *sky, time_s);
     air.low = box.low;
     air.high = box.high;
     air.flakes_per_m3 = density_of(scene, time_s);

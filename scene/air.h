@@ -26,6 +26,13 @@ struct Air
     FlakeVolume<double> volume() const { return {low, high, flakes_per_m3, shade.view()}; }
 };
 
+/// Where flakes are at a time, local frame: the sky's box if nothing else emits, else the domain.
+struct FlakeBox
+{
+    Vec3d low, high;
+};
+FlakeBox flake_box(const Scene& scene, double time_s);
+
 /// Extinction of the snowfall, 1/m, whatever way it is stated; without the drift.
 double uniform_extinction(const Scene& scene);
 

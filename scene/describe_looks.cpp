@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/shadow.h"
 #include "scene/describe_scene.h"
 #include "scene/sort_names.h"
 
@@ -129,6 +130,26 @@ void describe_phase(Section& section, Light& light)
                    kShare, light.back_share);
 }
 
+void describe_shadow(Section& section, Light& light, const std::vector<Light>& before)
+{
+    section.flag({.name = "shadow",
+                  .about = "what stands in its way casts a shadow, on surfaces, flakes and fog",
+                  .applies = light.kind != LightKind::point,
+                  .applies_when = "with kind = \"spot\" or \"directional\""},
+                 light.shadow);
+    if (!light.shadow) return;
+    section.require(
+        light.kind != LightKind::spot || light.outer_cone_deg <= kWidestShadow_deg, "shadow",
+        fmt::format("is not to be had with outer_cone_deg = {} (one flat map holds no wider cone)",
+                    light.outer_cone_deg),
+        fmt::format("use an outer_cone_deg of at most {}", kWidestShadow_deg));
+    const auto casters = static_cast<std::size_t>(
+        std::count_if(before.begin(), before.end(), [](const Light& other) { return other.shadow; }));
+    section.require(casters < kMostShadows, "shadow",
+                    fmt::format("is true for a light more than {} (so many maps are kept)", kMostShadows),
+                    fmt::format("let at most {} lights cast shadows", kMostShadows));
+}
+
 void describe_light(Section& section, std::vector<Light>& lights,
                     const std::vector<VehicleSettings>& vehicles)
 {
@@ -161,7 +182,31 @@ void describe_light(Section& section, std::vector<Light>& lights,
                    kLightAmount, light.intensity);
     describe_phase(section, light);
     describe_flashing(section, light);
+    describe_shadow(section, light, lights);
     lights.push_back(light);
+}
+
+void describe_shadows(Section& section, ShadowSettings& shadows, const std::vector<Light>& lights)
+{
+    const bool casts =
+        std::any_of(lights.begin(), lights.end(), [](const Light& light) { return light.shadow; });
+    constexpr std::string_view kWhen = "with a [[light]] that has shadow = true";
+    section.whole({.name = "map_px",
+                   .about = "edge of a light's map of what the scene hides from it; more are sharper",
+                   .applies = casts,
+                   .applies_when = kWhen},
+                  {.min = 16, .max = 4096, .why = "a larger one takes 64 MiB and more"}, shadows.map_px);
+    section.whole({.name = "snow_slices",
+                   .about = "slices across the light's way in which drawn flakes dim it; 0: they do not",
+                   .applies = casts,
+                   .applies_when = kWhen},
+                  {.min = 0, .max = 64}, shadows.snow_slices);
+    section.whole({.name = "snow_px",
+                   .about = "edge of a slice",
+                   .applies = casts && shadows.snow_slices > 0,
+                   .applies_when = "with snow_slices above 0"},
+                  {.min = 8, .max = 256, .why = "more, and each holds too few flakes to be even"},
+                  shadows.snow_px);
 }
 
 void describe_sky_looks(Section& section, SkySettings& sky)
@@ -272,6 +317,10 @@ void describe_render(Section& section, RenderSettings& render)
                    .about = "steps of bitonic-passes and odd-even-passes; also --sort-passes"},
                   {.min = 1, .max = 4096}, render.sort_passes_per_frame);
     describe_exposure(section, render);
+    section.number({.name = "dimmest_lamp_w_m2",
+                    .about = "irradiance at which a lamp without a range ends, so that many of them cost "
+                             "little; 0: it reaches everything"},
+                   {.min = 0, .max = 1e6}, render.dimmest_lamp_w_m2);
     section.number({.name = "flake_opacity", .about = "at the centre of a flake"}, kShare,
                    render.flake_opacity);
     section.number({.name = "flake_scale",
@@ -285,6 +334,8 @@ void describe_looks(Section& root, Scene& scene)
 {
     root.sections({.name = "light", .about = "lamps and the sun"},
                   [&](Section& s) { describe_light(s, scene.lights, scene.vehicles); });
+    root.section({.name = "shadows", .about = "maps of what the lights that cast shadows cannot reach"},
+                 [&](Section& s) { describe_shadows(s, scene.shadows, scene.lights); });
     root.section({.name = "sky", .about = "background and the light that comes from everywhere"},
                  [&](Section& s) { describe_sky_looks(s, scene.sky); });
     root.section({.name = "camera", .about = "who looks", .required = true},

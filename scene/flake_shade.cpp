@@ -133,14 +133,19 @@ double flake_area_m2(const RenderSettings& render, const Snow& snow, const View&
     return area_at(SpriteCover(render, snow), render, snow, view, depth_m);
 }
 
+double flake_cover(const RenderSettings& render, const Snow& snow)
+{
+    return SpriteCover(render, snow).at(1, kDetailFrom_px);
+}
+
 double full_flake_area_m2(const RenderSettings& render, const Snow& snow)
 {
-    const SpriteCover cover(render, snow);
+    const double cover = flake_cover(render, snow);
     return over_spectrum(snow,
                          [&](double diameter_m)
                          {
                              const double side_m = 0.5 * diameter_m * render.flake_scale;
-                             return side_m * side_m * cover.at(1, kDetailFrom_px);
+                             return side_m * side_m * cover;
                          });
 }
 

@@ -33,6 +33,10 @@ double flake_area_m2(const RenderSettings& render, const Snow& snow, const View&
 /// The same for flakes of any size on the picture: neither too small, too large nor too near.
 double full_flake_area_m2(const RenderSettings& render, const Snow& snow);
 
+/// Area that a drawn flake hides over the square of its radius, neither too small, too large nor too near:
+/// mean over the crystals. 0 for additive ones.
+double flake_cover(const RenderSettings& render, const Snow& snow);
+
 /// Tabulated from the near to the far plane; nowhere more than `most_m2`.
 FlakeShadeTable make_flake_shade(const RenderSettings& render, const Snow& snow, const View& view,
                                  double most_m2);

@@ -209,6 +209,15 @@ struct Light
     double g_back = -0.3;     ///< double_lobe: of the second lobe
     double back_share = 0.1;  ///< double_lobe: share of the light that it takes
     std::string vehicle;      ///< not empty: position and direction are relative to it
+    bool shadow = false;      ///< what stands in its way casts one; not for points
+};
+
+/// Of the lights that cast shadows.
+struct ShadowSettings
+{
+    int map_px = 1024;    ///< edge of the map of what the scene hides
+    int snow_slices = 0;  ///< in which flakes dim the light on its way; 0: they do not
+    int snow_px = 128;    ///< edge of a slice
 };
 
 struct SkySettings
@@ -292,6 +301,9 @@ struct RenderSettings
     bool auto_exposure = false;  ///< `exposure` is then found from the picture
     double grey = 0.18;          ///< what the log-average of the picture is shown as
     double adaptation_s = 1;     ///< time constant of the automatic exposure
+    /// Lamps without a range get one at which their light has faded to this irradiance; 0: they reach
+    /// everything.
+    double dimmest_lamp_w_m2 = 0;
     double flake_opacity = 0.9;  ///< at the centre of a flake, 0..1
     double flake_scale = 1;      ///< drawn size over real size; light is kept by weight / scale^2
 };
@@ -343,6 +355,7 @@ struct Scene
     std::vector<ModelSettings> models;
     double voxel_m = 1;
     std::vector<Light> lights;
+    ShadowSettings shadows;
     SkySettings sky;
     CameraSettings camera;
     std::vector<VehicleSettings> vehicles;

@@ -42,7 +42,7 @@ vec2 lit_part(Light light, vec3 way, vec2 part)
     return u1 > 0.0 ? vec2(max(part.x, second), part.y) : vec2(part.x, min(part.y, first));
 }
 
-float glow_at(Light light, AirPath path, float nearest, float least, float angle)
+float glow_at(uint index, Light light, AirPath path, float nearest, float least, float angle)
 {
     float sine = sin(angle);
     float cosine = cos(angle);
@@ -53,10 +53,10 @@ float glow_at(Light light, AirPath path, float nearest, float least, float angle
     float spot = clamp(dot(place - light.place.xyz, light.direction.xyz) / away * light.direction.w + light.limits.x, 0.0, 1.0);
     float reach = away * light.limits.y;
     float window = max(1.0 - reach * reach * reach * reach, 0.0);
-    return spot * spot * window * fog_at(path, at) * exp(-depth) * phase(light, -sine);
+    return spot * spot * window * fog_at(path, at) * exp(-depth) * phase(light, -sine) * lit_share(index, place);
 }
 
-vec3 airlight(Light light, AirPath path, vec2 part)
+vec3 airlight(uint index, Light light, AirPath path, vec2 part)
 {
     vec2 lit = lit_part(light, path.way, part);
     if (lit.y <= lit.x) return vec3(0.0);
@@ -70,35 +70,73 @@ vec3 airlight(Light light, AirPath path, vec2 part)
     float wide = 0.5 * (last - first);
     float sum = 0.0;
     for (int k = 0; k < 4; ++k)
-        sum += kWeight[k] * (glow_at(light, path, nearest, least, middle - wide * kPlace[k]) +
-                             glow_at(light, path, nearest, least, middle + wide * kPlace[k]));
+        sum += kWeight[k] * (glow_at(index, light, path, nearest, least, middle - wide * kPlace[k]) +
+                             glow_at(index, light, path, nearest, least, middle + wide * kPlace[k]));
     return light.intensity.rgb * (sum * wide / least);
 }
 
-vec3 airlight_to(Light light, AirPath path, float to)
+vec3 airlight_to(uint index, AirPath path, float to)
 {
+    Light light = lights[index];
     float enter = min(path.enters, to);
     float leave = min(path.leaves, to);
-    vec3 sum = airlight(light, path, vec2(leave, to));
-    if (enter > 0.0) sum += airlight(light, path, vec2(0.0, enter));
-    if (leave > enter) sum += airlight(light, path, vec2(enter, leave));
+    vec3 sum = airlight(index, light, path, vec2(leave, to));
+    if (enter > 0.0) sum += airlight(index, light, path, vec2(0.0, enter));
+    if (leave > enter) sum += airlight(index, light, path, vec2(enter, leave));
     return sum;
 }
 
-// Light that is the same along the whole way: ambient and directional.
-vec3 even_light(vec3 way)
+// Share of a parallel light that reaches the fog, each part counting by what the eye gets of it: eight points at equal
+// shares of an even fog's light.
+float share_in_fog(uint index, AirPath path, float to)
+{
+    float depth = of_fog(path, to);
+    float hidden = 1.0 - exp(-depth);
+    bool thin = depth < 1e-3;
+    float per_m = (thin ? 1.0 : depth) / to;
+    float lit = 0.0;
+    float all = 0.0;
+    for (int k = 0; k < 8; ++k)
+    {
+        float share = 0.5 + (k < 4 ? -0.5 : 0.5) * kPlace[k & 3];
+        float left = 1.0 - share * hidden;
+        float at = thin ? share * to : -log(left) / per_m;
+        float weight = kWeight[k & 3] * fog_at(path, at) * exp(-of_fog(path, at)) / (thin ? 1.0 : left);
+        all += weight;
+        lit += weight * lit_share(index, eye_time.xyz + path.way * at);
+    }
+    return all > 0.0 ? lit / all : 1.0;
+}
+
+void add_even(uint index, AirPath path, float to, inout vec3 sum)
+{
+    Light light = lights[index];
+    if (light.place.w != 0.0) return;
+    vec3 even = light.intensity.rgb * phase(light, dot(light.place.xyz, path.way));
+#ifdef SHADOWS
+    if (index < uint(SHADOWS)) even *= share_in_fog(index, path, to);
+#endif
+    sum += even;
+}
+
+// Light that comes from everywhere or far away, as fog up to a distance scatters it: ambient and directional. `cluster`: that of
+// the way's end.
+vec3 even_light(AirPath path, float to, uint cluster)
 {
     vec3 sum = flake_ambient();
-    for (uint i = 0u; i < kLightCount; ++i)
-        if (lights[i].place.w == 0.0) sum += lights[i].intensity.rgb * phase(lights[i], dot(lights[i].place.xyz, way));
+    EACH_LIGHT_ON_THE_WAY(cluster, add_even(i, path, to, sum));
     return sum;
+}
+
+void add_glow(uint index, AirPath path, float to, inout vec3 sum)
+{
+    if (lights[index].place.w != 0.0) sum += airlight_to(index, path, to);
 }
 
 // Glow of point and spot lamps on the way.
-vec3 lamp_glow(AirPath path, float to)
+vec3 lamp_glow(AirPath path, float to, uint cluster)
 {
     vec3 sum = vec3(0.0);
-    for (uint i = 0u; i < kLightCount; ++i)
-        if (lights[i].place.w != 0.0) sum += airlight_to(lights[i], path, to);
+    EACH_LIGHT_ON_THE_WAY(cluster, add_glow(i, path, to, sum));
     return sum;
 }

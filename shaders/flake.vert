@@ -31,31 +31,37 @@ const float kLargestRadiance = 6e4;
 
 bool finite(float v) { return (floatBitsToUint(v) & 0x7f800000u) != 0x7f800000u; }
 
-vec3 scattered(vec3 p, vec3 to_eye, out vec3 towards)
+void add_scattered(uint index, vec3 p, vec3 to_eye, inout vec3 sum, inout vec3 towards)
+{
+    Light light = lights[index];
+    vec3 to_light;
+    vec3 e = irradiance(light, p, to_light);
+#ifdef AIR
+    if (light.place.w != 0.0) e *= reaching(light.place.xyz, p);
+#endif
+    e *= lit_share(index, p);
+    float mu = clamp(-dot(to_light, to_eye), -1.0, 1.0);
+    sum += e * phase(light, mu);
+    towards += to_light * dot(e, vec3(0.2126, 0.7152, 0.0722));
+}
+
+vec3 scattered(vec3 p, vec3 to_eye, uint cluster, out vec3 towards)
 {
     vec3 sum = vec3(0.0);
     towards = vec3(0.0);
-    for (uint i = 0u; i < kLightCount; ++i)
-    {
-        vec3 to_light;
-        vec3 e = irradiance(lights[i], p, to_light);
-#ifdef AIR
-        if (lights[i].place.w != 0.0) e *= reaching(lights[i].place.xyz, p);
-#endif
-        float mu = clamp(-dot(to_light, to_eye), -1.0, 1.0);
-        sum += e * phase(lights[i], mu);
-        towards += to_light * dot(e, vec3(0.2126, 0.7152, 0.0722));
-    }
+    EACH_LIGHT(cluster, add_scattered(i, p, to_eye, sum, towards));
     return sum;
 }
+
+// Where it is on the picture, px from the lower left corner.
+vec2 centre_px(vec4 clip) { return (clip.xy / (clip.w * sprite.yz) * 0.5 + 0.5) * picture.xy; }
 
 // Share of the flake that is left where it cuts into the scene, looked up once at its centre. Behind the scene the
 // depth test decides pixel by pixel.
 float soft_edge(vec4 clip, float z, float length_m)
 {
     if (has_scene == 0) return 1.0;
-    vec2 at = (clip.xy / (clip.w * sprite.yz) * 0.5 + 0.5) * picture.xy;
-    ivec2 pixel = clamp(ivec2(floor(at)), ivec2(0), ivec2(picture.xy) - 1);
+    ivec2 pixel = clamp(ivec2(floor(centre_px(clip))), ivec2(0), ivec2(picture.xy) - 1);
     float gap = scene_z(texelFetch(scene_depth, pixel, 0).r) - z;
     return gap > 0.0 ? min(gap / length_m, 1.0) : 1.0;
 }
@@ -65,7 +71,7 @@ float soft_edge(vec4 clip, float z, float length_m)
 bool hidden(vec4 clip, float drawn)
 {
     if (has_scene == 0) return false;
-    vec2 centre = (clip.xy / (clip.w * sprite.yz) * 0.5 + 0.5) * picture.xy;
+    vec2 centre = centre_px(clip);
     // The four tiles round the lower left corner of the sprite's box hold all of it.
     vec2 tile = floor((centre - drawn - 0.5) * 0.125) + 1.0;
     vec4 farthest = textureGather(depth_tiles, tile / vec2(textureSize(depth_tiles, 0)));
@@ -76,7 +82,7 @@ bool hidden(vec4 clip, float drawn)
 #ifdef AIR
 // Light as it reaches the eye: dimmed by the air between, and with the glow of that air. Where light is only added, that
 // glow is in the picture already.
-void see_through_air(vec3 way, float distance_m, inout vec3 lit, inout vec3 ambient)
+void see_through_air(vec3 way, float distance_m, uint cluster, inout vec3 lit, inout vec3 ambient)
 {
     if (volume_high.w != 0.0) return;
     AirPath path = air_path(way);
@@ -84,9 +90,9 @@ void see_through_air(vec3 way, float distance_m, inout vec3 lit, inout vec3 ambi
     lit *= clear;
     ambient *= clear;
 #ifndef ADDITIVE
-    ambient += even_light(way) * (1.0 - clear);
+    ambient += even_light(path, distance_m, cluster) * (1.0 - clear);
 #ifdef GLOW
-    ambient += lamp_glow(path, distance_m);
+    ambient += lamp_glow(path, distance_m, cluster);
 #endif
 #endif
 }
@@ -128,10 +134,11 @@ void main()
 
     vec3 towards;
     vec3 to_eye = (eye_time.xyz - p) * inversesqrt(dot(v, v));
-    vec3 lit = scattered(p, to_eye, towards);
+    uint cluster = cluster_at(centre_px(clip), z);
+    vec3 lit = scattered(p, to_eye, cluster, towards);
     vec3 ambient = flake_ambient();
 #ifdef AIR
-    see_through_air(-to_eye, length(v), lit, ambient);
+    see_through_air(-to_eye, length(v), cluster, lit, ambient);
 #endif
 #ifdef OPAQUE
     glow = vec4(min(ambient + lit, kLargestRadiance), 1.0);

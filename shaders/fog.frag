@@ -11,11 +11,13 @@ void main()
 {
     float far = length(ray);
     AirPath path = air_path(ray / far);
-    float to = scene_z(texelFetch(scene_depth, ivec2(gl_FragCoord.xy), 0).r) * far;
+    float z = scene_z(texelFetch(scene_depth, ivec2(gl_FragCoord.xy), 0).r);
+    float to = z * far;
+    uint cluster = cluster_at(gl_FragCoord.xy, z);
 #ifdef GLOW
-    colour = vec4(min(lamp_glow(path, to), 6e4), 1.0);
+    colour = vec4(min(lamp_glow(path, to, cluster), 6e4), 1.0);
 #else
     float clear = clear_share(path, to);
-    colour = vec4(min(even_light(path.way), 6e4) * (1.0 - clear), clear);
+    colour = vec4(min(even_light(path, to, cluster), 6e4) * (1.0 - clear), clear);
 #endif
 }

@@ -17,6 +17,45 @@ layout(std140, binding = 1) uniform FewLights { Light lights[8]; };
 #else
 #define kLightCount counts.x
 layout(std430, binding = 5) readonly buffer Lights { Light lights[]; };
+// Which of them count where; core/lamp_clusters.h has it, gl/cluster_lamps.h fills it.
+layout(std430, binding = 7) readonly buffer LampClusters
+{
+    vec4 cluster_grid;       // left and lower end (px), columns and rows a px
+    vec2 cluster_depth;      // log2 of the depth (m) at which slice 0 ends, slices per log2
+    uint cluster_words;      // of a cluster
+    uint cluster_ways;       // words before the bits of the ways to the clusters
+    uint cluster_bits[];
+};
+const vec3 kClusters = vec3(24.0, 16.0, 20.0);  // columns, rows, slices
+#endif
+
+// Where in the bits those of the cluster begin that holds a place: px from the lower left corner, depth in m.
+uint cluster_at(vec2 px, float z)
+{
+#ifdef LIGHTS
+    return 0u;
+#else
+    float slice = (log2(max(z, 1e-6)) - cluster_depth.x) * cluster_depth.y + 1.0;
+    uvec3 at = uvec3(clamp(vec3((px - cluster_grid.xy) * cluster_grid.zw, slice), vec3(0.0), kClusters - 1.0));
+    return ((at.z * uint(kClusters.y) + at.y) * uint(kClusters.x) + at.x) * cluster_words;
+#endif
+}
+
+// Runs `body`, which may use i, for each light that may count in a cluster: lamps that reach into it, or with `ways` those
+// that reach the way there from the eye. Few lights are all run, by constant index.
+#ifdef LIGHTS
+#define EACH_LIGHT(cluster, body) \
+    for (uint i = 0u; i < kLightCount; ++i) body
+#define EACH_LIGHT_ON_THE_WAY(cluster, body) EACH_LIGHT(cluster, body)
+#else
+#define EACH_LIGHT(cluster, body)                                                                     \
+    for (uint word = 0u; word < cluster_words; ++word)                                                \
+        for (uint left = cluster_bits[(cluster) + word]; left != 0u; left &= left - 1u)               \
+        {                                                                                             \
+            uint i = 32u * word + uint(findLSB(left));                                                \
+            body;                                                                                     \
+        }
+#define EACH_LIGHT_ON_THE_WAY(cluster, body) EACH_LIGHT(cluster_ways + (cluster), body)
 #endif
 
 // The same light for places that are told from the eye.
@@ -27,6 +66,12 @@ Light seen_from(Light light, vec3 eye)
 }
 
 const float kNearestLight = 0.05;  // m
+
+#ifdef SHADOWS
+#include "shadow.glsl"
+#else
+float lit_share(uint light, vec3 p) { return 1.0; }
+#endif
 
 // Irradiance of light i at p on a surface that faces it; to_light is the unit vector towards it.
 vec3 irradiance(Light light, vec3 p, out vec3 to_light)

@@ -128,6 +128,28 @@ dither = false
                 testing::HasSubstr("--beside-ldr compares what is shown, not light; use .png or .mp4"));
 }
 
+TEST_F(Drawing, StatisticsCountABloomThatFoundNothingAsLeftOut)
+{
+    const std::string scene = read(small_scene()) +
+                              "\n[bloom]\nweight = 0.1\nthreshold = 1000\n"
+                              "ceiling = 2000\n[[light]]\nkind = \"point\"\n"
+                              "position_m = [5, 5, 5]\nintensity_w_sr = [1, 1, 1]\n";
+    const std::string stats = in_folder("bloom.json");
+    const Finished run =
+        run_command({"run", write("bloom.toml", scene), "--headless", "--frames", "2", "--size", "64x36",
+                     "--particles", "500", "--out", in_folder("bloom.png"), "--stats", stats});
+    ASSERT_EQ(run.exit_code, 0) << run.error;
+    for (const nlohmann::json& pass : nlohmann::json::parse(read(stats)).at("passes"))
+        if (pass.at("pass") == "bloom")
+        {
+            EXPECT_EQ(pass.at("frames_run"), 0);
+            EXPECT_EQ(pass.at("frames_skipped"), 2);
+            EXPECT_NE(
+                pass.at("skipped_because")[0].get<std::string>().find("nothing in the picture was bright"),
+                std::string::npos);
+        }
+}
+
 TEST_F(Drawing, LogsLuminanceOfPixels)
 {
     const std::string calibrated = write("calibrated.toml", read(small_scene()) + R"(

@@ -80,6 +80,26 @@ TEST(PlanLog, CountsRunsAndKeepsEachReasonOnce)
     EXPECT_THAT(log.passes()[0].skipped_because, testing::ElementsAre("at rest"));
 }
 
+TEST(PlanLog, CountsWhatTheGpuFoundNeedless)
+{
+    PlanLog log;
+    gl::FramePlan plan;
+    plan.passes = {{"bloom", true, "spreads light", "", "", {}}};
+    log.add(plan);
+    log.add(plan);
+    log.left_out_after_all("bloom", "nothing was bright");
+    EXPECT_EQ(log.passes()[0].ran, 1U);
+    EXPECT_EQ(log.passes()[0].skipped, 1U);
+    EXPECT_THAT(log.passes()[0].ran_because, testing::ElementsAre("spreads light"));
+    log.add(plan);
+    log.left_out_after_all("bloom", "nothing was bright");
+    log.add(plan);
+    log.left_out_after_all("bloom", "nothing was bright");
+    EXPECT_EQ(log.passes()[0].ran, 1U);
+    EXPECT_EQ(log.passes()[0].skipped, 3U);
+    EXPECT_THAT(log.passes()[0].skipped_because, testing::ElementsAre("nothing was bright"));
+}
+
 TEST(ProgressLine, TellsRateAndTimeLeft)
 {
     EXPECT_EQ(progress_line("frames", 30, 90, 10),

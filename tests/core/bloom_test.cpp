@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -88,6 +89,27 @@ TEST(Exposure, ShowsTheLogAverageAsGreyAndAdaptsAlikeAtAnyRate)
     { return std::pow(1 - spindrift::adapted_share(1.0 / frames, 0.7), frames); };
     EXPECT_NEAR(rest_after_a_second(10), rest_after_a_second(60), 1e-12);
     EXPECT_NEAR(rest_after_a_second(30), std::exp(-1 / 0.7), 1e-12);
+}
+
+TEST(ReportBrightPart, IsTheReportsLineWhereThatHolds)
+{
+    const Bright<double> bright{0.6, 0, 100};
+    const Vec3d part = spindrift::report_bright_part(Vec3d{0.5, 0.7, 0.9}, bright);
+    EXPECT_EQ(part.x, 0);
+    EXPECT_NEAR(part.y, 0.25, 1e-12);
+    EXPECT_NEAR(part.z, 0.75, 1e-12);
+}
+
+TEST(ReportBrightPart, CannotBreak)
+{
+    for (const double threshold : {0.0, 0.5, 0.999, 1.0, 2.0})
+        for (const double light : {0.0, 0.5, 1.0, 1.5, 3.0, 65504.0})
+        {
+            const Vec3d grey{light, light, light};
+            const double part = spindrift::report_bright_part(grey, Bright<double>{threshold, 0, 100}).x;
+            EXPECT_GE(part, 0) << threshold << " " << light;
+            EXPECT_LE(part, std::min(light, 100.0)) << "no more is spread than is there";
+        }
 }
 
 }  // namespace

@@ -177,6 +177,95 @@ TEST_F(PlanTest, OnlyLampsThatShineGlowInTheFog)
     EXPECT_FALSE(plan().runs("airlight"));
 }
 
+TEST_F(PlanTest, ShadowsAreDrawnAnewOnlyWhenLampsOrVehiclesMove)
+{
+    EXPECT_FALSE(plan().runs("shadows"));
+    EXPECT_NE(reason("shadows").find("no light that shines casts"), std::string::npos) << reason("shadows");
+    scene::Light& lamp = scene.lights.front();
+    lamp.kind = scene::LightKind::spot;
+    lamp.shadow = true;
+    const FramePlan first = plan();
+    EXPECT_TRUE(first.runs("shadows"));
+    EXPECT_EQ(first.lit.shadows, 1U);
+    stats.shadows = first.shadows;
+    EXPECT_FALSE(plan().runs("shadows"));
+    EXPECT_TRUE(plan().lit.maps) << "they are looked up all the same";
+    EXPECT_NE(reason("shadows").find("at rest"), std::string::npos) << reason("shadows");
+    lamp.position_m.x += 1;
+    EXPECT_TRUE(plan().runs("shadows"));
+    lamp.position_m.x -= 1;
+    scene::VehicleSettings car;
+    car.name = "car";
+    car.path.keys = {{0, {0, 0, 0}}, {10, {100, 0, 0}}};
+    scene.vehicles.push_back(car);
+    EXPECT_FALSE(plan(5).runs("shadows")) << "nothing stands on it";
+    scene.models.emplace_back().vehicle = "car";
+    stats.shadows = plan(5).shadows;
+    EXPECT_FALSE(plan(5).runs("shadows"));
+    EXPECT_TRUE(plan(6).runs("shadows"));
+    lamp.on = false;
+    EXPECT_FALSE(plan(6).runs("shadows"));
+    EXPECT_EQ(plan(6).lit.shadows, 0U);
+}
+
+TEST_F(PlanTest, SnowDimsLightWhereTheSceneAsksAndFlakesMove)
+{
+    scene::Light& lamp = scene.lights.front();
+    lamp.kind = scene::LightKind::directional;
+    lamp.shadow = true;
+    EXPECT_FALSE(plan().runs("snow shade"));
+    EXPECT_NE(reason("snow shade").find("no slices"), std::string::npos) << reason("snow shade");
+    scene.shadows.snow_slices = 8;
+    EXPECT_TRUE(plan().runs("snow shade"));
+    stats.shadows = plan().shadows;
+    stats.snow_shaded = true;
+    EXPECT_TRUE(plan().runs("snow shade")) << "flakes move";
+    stats.flakes_moved = false;
+    EXPECT_FALSE(plan().runs("snow shade"));
+    EXPECT_TRUE(plan().lit.snow);
+    scene.render.blending = scene::Blending::additive;
+    EXPECT_FALSE(plan().lit.snow) << "what is added hides nothing";
+    scene.render.blending = scene::Blending::over;
+    stats.counts.alive = 0;
+    EXPECT_FALSE(plan().runs("snow shade"));
+}
+
+TEST_F(PlanTest, LampsThatCastShadowsComeFirst)
+{
+    scene::Light sun;
+    sun.kind = scene::LightKind::directional;
+    sun.shadow = true;
+    scene.lights.push_back(sun);
+    const ActiveLights active = active_lights(scene, {}, view, 0);
+    ASSERT_EQ(active.lamps.size(), 2U);
+    EXPECT_TRUE(active.lamps[0].casts_shadow);
+    EXPECT_FALSE(active.lamps[1].casts_shadow);
+}
+
+TEST_F(PlanTest, NothingThatMovesNeedsNoNewPicture)
+{
+    stats.counts.alive = 0;
+    stats.camera_moved = false;
+    EXPECT_FALSE(plan().still) << "no picture is there yet";
+    stats.shown = plan().shown;
+    EXPECT_TRUE(plan().still);
+    for (const PlannedPass& pass : plan().passes) EXPECT_FALSE(pass.runs) << pass.name;
+    EXPECT_NE(reason("tone").find("the picture of before holds"), std::string::npos);
+    stats.camera_moved = true;
+    EXPECT_FALSE(plan().still);
+    stats.camera_moved = false;
+    stats.counts.alive = 1;
+    EXPECT_FALSE(plan().still) << "flakes turn";
+    stats.counts.alive = 0;
+    scene.render.auto_exposure = true;
+    EXPECT_FALSE(plan().still) << "it adapts";
+    scene.render.auto_exposure = false;
+    scene.lights.front().flashing = true;
+    scene.lights.front().flash_rate_hz = 1;
+    EXPECT_TRUE(plan(0).still);
+    EXPECT_FALSE(plan(0.6).still) << "the lamp is dark then";
+}
+
 TEST_F(PlanTest, EmptySceneHidesNothing)
 {
     scene.ground.kind = scene::GroundKind::none;

@@ -199,6 +199,122 @@ TEST_F(Skips, BloomChainWhereTheGpuFindsNothingBright)
     EXPECT_TRUE(draw_planned(plan()).found_bright);
 }
 
+TEST_F(Skips, FogWhereTheAirIsClearEnough)
+{
+    scene.air.source = scene::AirSource::visibility;
+    scene.air.visibility_m = 1.3e5;  // 0.46 % are lost up to the far plane
+    add_box({-1, 9.5F, -1}, {1, 10, 1}, {.albedo = {0.5F, 0.5F, 0.5F}, .emission = {0, 0, 0}});
+    FramePlan frame = plan();
+    ASSERT_FALSE(frame.runs("fog"));
+    const Pictures without = draw_planned(frame);
+    for (PlannedPass& pass : frame.passes)
+        if (pass.name == "fog") pass.runs = true;
+    const Pictures with = draw_planned(frame);
+    double most = 0;  // over the light of the thing or of the fog, whichever is more
+    for (std::size_t i = 0; i < with.linear.rgba.size(); ++i)
+        if (i % 4 != 3)
+            most = std::max(most, std::abs(double{with.linear.rgba[i]} - without.linear.rgba[i]) /
+                                      std::max(double{without.linear.rgba[i]}, 0.3));
+    EXPECT_GT(most, 1e-3) << "the test can fail";
+    EXPECT_LT(most, 0.005 + 1.0 / 1024) << "as much as is stated, and half floats";
+}
+
+TEST_F(Skips, AirlightWithoutALampThatShines)
+{
+    scene.air.source = scene::AirSource::visibility;
+    scene.air.visibility_m = 20;
+    scene.lights.push_back(point_light({0, 5, 1}, 100));
+    scene.lights.front().on = false;
+    expect_nothing_lost("airlight");
+}
+
+TEST_F(Skips, PictureWhereNothingMoves)
+{
+    test_context();
+    places.clear();
+    ids.clear();
+    stats.counts.alive = 0;
+    stats.camera_moved = false;
+    add_box({-1, 9.5F, -1}, {1, 10, 1}, {.albedo = {0.5F, 0.5F, 0.5F}, .emission = {0, 0, 0}});
+    scene.display.tone = ToneCurve::reinhard;
+    const FlakeBuffers buffers(1);
+    Renderer renderer(scene, geometry, world, buffers, view.width_px, view.height_px);
+    const FramePlan first = plan();
+    renderer.draw(first, view, {}, 0);
+    const image::Image8 before = renderer.read_display();
+    stats.shown = first.shown;
+    ASSERT_TRUE(plan().still);
+    renderer.draw(plan(), view, {}, 1);
+    EXPECT_EQ(renderer.read_display().rgb, before.rgb);
+    renderer.develop_low_range();
+    EXPECT_NE(renderer.read_display().rgb, before.rgb) << "the test can fail";
+    renderer.draw(plan(), view, {}, 2);
+    EXPECT_EQ(renderer.read_display().rgb, before.rgb);
+    renderer.draw(first, view, {}, 2);
+    EXPECT_EQ(renderer.read_display().rgb, before.rgb) << "drawn anew";
+}
+
+/// A wall whose shadow falls on another, and flakes that the light has to get past.
+struct ShadowSkips : Skips
+{
+    ShadowSkips()
+    {
+        add_box({-0.2F, 9.2F, -0.1F}, {0, 9.3F, 0.1F}, {.albedo = {0.5F, 0.5F, 0.5F}, .emission = {0, 0, 0}});
+        add_box({-1, 9.8F, -1}, {1, 10, 1}, {.albedo = {0.5F, 0.5F, 0.5F}, .emission = {0, 0, 0}});
+        scene.domain.max_m = {100, 100, 100};
+        scene::Light sun;
+        sun.kind = scene::LightKind::directional;
+        sun.direction = {0.6, 0.8, 0};
+        sun.intensity = {2, 2, 2};
+        sun.shadow = true;
+        scene.lights.push_back(sun);
+    }
+
+    /// Draws twice with one renderer, the second time what the plan then leaves out; the same in one go.
+    void expect_the_same_picture_again(const char* pass)
+    {
+        test_context();
+        const FlakeBuffers buffers(places.size());
+        for (std::size_t i = 0; i < places.size(); ++i)
+        {
+            buffers.flakes().x[i] = places[i].x;
+            buffers.flakes().y[i] = places[i].y;
+            buffers.flakes().z[i] = places[i].z;
+            buffers.flakes().id[i] = ids[i];
+            buffers.draw_list().pairs[i] = i << 32 | i;
+        }
+        DrawList list;
+        list.count = list.slots = places.size();
+        Renderer renderer(scene, geometry, world, buffers, view.width_px, view.height_px);
+        const FramePlan first = plan();
+        ASSERT_TRUE(first.runs(pass));
+        renderer.draw(first, view, list, 0);
+        const image::Image before = renderer.read_linear();
+        stats.shadows = first.shadows;
+        stats.snow_shaded = first.lit.snow;
+        stats.flakes_moved = false;
+        const FramePlan second = plan();
+        ASSERT_FALSE(second.runs(pass));
+        renderer.draw(second, view, list, 0);
+        EXPECT_EQ(renderer.read_linear().rgba, before.rgba);
+        FramePlan lost = second;
+        lost.lit = {first.lit.lights};
+        renderer.draw(lost, view, list, 0);
+        EXPECT_NE(renderer.read_linear().rgba, before.rgba) << "the test can fail";
+    }
+};
+
+TEST_F(ShadowSkips, MapsOfLightsAndThingsAtRest)
+{
+    expect_the_same_picture_again("shadows");
+}
+
+TEST_F(ShadowSkips, SlicesOfFlakesAtRest)
+{
+    scene.shadows.snow_slices = 4;
+    expect_the_same_picture_again("snow shade");
+}
+
 TEST_F(Skips, ExposureOfTheOtherEyeOfAPair)
 {
     test_context();

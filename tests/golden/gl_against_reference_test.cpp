@@ -28,6 +28,8 @@ using scene::Sprite;
 // - the rims of plain discs are such silhouettes too, and points are placed on a grid of 1/256 px: a few in a
 // thousand pixels, whose light under lamps is far above 1;
 // - masks are interpolated with 8 bits of fraction;
+// - a shadow's edge is a texel wide, and smooth: pixels on it, and flakes there, are off by a part of their
+// light;
 // - the glow round a lamp in thick air is a hundred times white, and half floats are coarse there.
 
 enum class Air
@@ -48,6 +50,7 @@ struct Case
     Air air;
     double most_relative_l2;
     double most_share_off;  ///< of the pixels may be off by more than 1e-2 of white
+    bool shadows = false;   ///< of spot and moon
 };
 
 void PrintTo(const Case& c, std::ostream* out)
@@ -81,6 +84,9 @@ class GlAgainstReference : public testing::TestWithParam<CaseAndPath>
         small.scene.render.sprite = c.sprite;
         small.scene.render.flake_path = path();
         if (c.lamps) light_up(small);
+        for (scene::Light& light : small.scene.lights)
+            light.shadow = c.shadows && light.kind != scene::LightKind::point;
+        small.scene.shadows.map_px = 2048;
         if (c.air != Air::clear) thicken(small);
         if (c.air == Air::legacy) small.scene.air.law = scene::FogLaw::legacy;
         if (c.air == Air::legacy) small.scene.render.scattering = scene::Scattering::legacy;
@@ -138,6 +144,21 @@ TEST_P(GlAgainstReference, SeesTheFlakes)
     EXPECT_GT(image::compare(with, draw(), 0).relative_l2, 20 * c.most_relative_l2);
 }
 
+TEST_P(GlAgainstReference, SeesTheShadows)
+{
+    const Case& c = tested();
+    if (!c.shadows) GTEST_SKIP() << "a scene without shadows";
+    SmallScene small = small_scene(c);
+    const auto draw = [&]
+    {
+        return reference::render(small.scene, small.geometry, small.world, small.flakes.view(),
+                                 small.flakes.x.size(), small.view, small.time_s);
+    };
+    const image::Image with = draw();
+    for (scene::Light& light : small.scene.lights) light.shadow = false;
+    EXPECT_GT(image::compare(with, draw(), 0).relative_l2, 10 * c.most_relative_l2);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Scenes, GlAgainstReference,
     testing::Combine(
@@ -156,6 +177,11 @@ INSTANTIATE_TEST_SUITE_P(
             Case{"air_additive", 2000, 40, Blending::additive, Sprite::crystal, true, Air::thick, 1e-3, 1e-2},
             Case{"air_opaque", 2000, 20, Blending::opaque, Sprite::point, true, Air::thick, 1e-3, 1e-2},
             Case{"air_legacy", 2000, 40, Blending::over, Sprite::crystal, true, Air::legacy, 1.5e-3, 2e-3},
+            Case{"shadows", 0, 1, Blending::over, Sprite::crystal, true, Air::clear, 1e-3, 2e-3, true},
+            Case{"shadows_flakes", 2000, 40, Blending::over, Sprite::crystal, true, Air::clear, 1e-3, 2e-3,
+                 true},
+            Case{"shadows_air", 2000, 40, Blending::over, Sprite::crystal, true, Air::thick, 1e-3, 1.5e-2,
+                 true},
             Case{"opaque_lamps", 2000, 20, Blending::opaque, Sprite::point, true, Air::clear, 1e-3, 3e-3}),
         testing::Values(FlakePath::raster, FlakePath::tiles)),
     [](const testing::TestParamInfo<CaseAndPath>& tested)

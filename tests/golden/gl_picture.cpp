@@ -51,6 +51,11 @@ std::vector<std::uint32_t> order_of(const StillFlakes& flakes, const View& view)
 
 GlPicture draw_with_gl(SmallScene& small)
 {
+    return draw_with_gl(small, *cpu::make_tile_splatter({}));
+}
+
+GlPicture draw_with_gl(SmallScene& small, Splatter& splatter)
+{
     const std::size_t count = small.flakes.x.size();
     const gl::FlakeBuffers buffers(std::max<std::size_t>(count, 1));
     copy_flakes(small.flakes, buffers.flakes());
@@ -63,14 +68,14 @@ GlPicture draw_with_gl(SmallScene& small)
     DrawList list;
     list.count = count;
     list.sorted = true;
+    list.slots = count;
 
     gl::FrameStats stats;
     stats.counts.emitted = stats.counts.alive = count;
     const gl::FramePlan plan =
         gl::plan_frame(small.scene, small.view, stats, small.time_s, small.geometry.model_lights);
-    const auto splatter = cpu::make_tile_splatter({});
     gl::Renderer renderer(small.scene, small.geometry, small.world, buffers, small.view.width_px,
-                          small.view.height_px, splatter.get());
+                          small.view.height_px, &splatter);
     renderer.draw(plan, small.view, list, small.time_s);
     return {renderer.read_linear(), renderer.read_display(), gl::Context::debug_errors()};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/splatter.h"
 #include "image/image.h"
 #include "tests/golden/small_scenes.h"
 
@@ -17,5 +18,6 @@ struct GlPicture
 /// Draws a small scene with gl::Renderer, its flakes handed over in the exact order far to near. Needs a
 /// current context.
 GlPicture draw_with_gl(SmallScene& small);
+GlPicture draw_with_gl(SmallScene& small, Splatter& splatter);
 
 }  // namespace spindrift::golden

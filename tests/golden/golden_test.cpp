@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <memory>
@@ -28,9 +29,8 @@ const std::filesystem::path kPictures = SPINDRIFT_SOURCE_DIR "/tests/golden/pict
 constexpr int kLevels = 3;
 constexpr double kShareOff = 1e-3;
 
-/// How near GL must come to the reference: pixels on silhouettes may fall on either side, the others are
-/// rounded.
-constexpr double kMostRelativeL2 = 1e-3;
+/// How near GL must come to the reference, which Showing::most_share_off says: pixels on silhouettes may fall
+/// on either side, and the edges of shadows are a texel of the map wide where the reference's are sharp.
 constexpr double kMostLevelsOff = 2e-3;  ///< with bloom, tone curve and sRGB on both sides
 
 bool updating()
@@ -91,13 +91,13 @@ TEST_P(Golden, LooksAsItDid)
         "{:.2e}\n",
         name_of(GetParam()), shown.drawn, 100 * truth.share_above, truth.rest_relative_l2);
     EXPECT_LE(truth.share_above, showing.most_share_off);
-    EXPECT_LE(truth.rest_relative_l2, kMostRelativeL2);
+    EXPECT_LE(truth.rest_relative_l2, showing.most_rest);
 
     // Levels are of 8 bits: light that is off by less than 1e-2 may be several of them in the dark.
     const image::Difference levels = image::compare(shown.display, shown.developed, kLevels);
     fmt::print("{}: {:.3f} % of pixels shown more than {} levels off\n", name_of(GetParam()),
                100 * levels.share_above, kLevels);
-    EXPECT_LE(levels.share_above, kMostLevelsOff);
+    EXPECT_LE(levels.share_above, std::max(kMostLevelsOff, 1.5 * showing.most_share_off));
 
     const std::string kept = testing::TempDir() + "spindrift-" + name_of(GetParam());
     if (updating() && showing.path == scene::FlakePath::raster)
@@ -121,12 +121,13 @@ TEST_P(Golden, LooksAsItDid)
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Golden,
-                         testing::Combine(testing::Values(Showing{"town", 40'000, 320, 180, 1},
+                         testing::Combine(testing::Values(Showing{"town", 40'000, 320, 180, 1, 4e-3},
                                                           Showing{"canyon", 20'000, 320, 180, 8},
                                                           Showing{"sheet", 4'000, 320, 180, 4},
-                                                          Showing{"calm", 4'000, 320, 180, 1},
-                                                          // Half floats round lamps of 60 by 0.03.
-                                                          Showing{"night", 20'000, 320, 180, 4, 1e-3}),
+                                                          Showing{"calm", 4'000, 320, 180, 1, 5e-3, 2e-3},
+                                                          Showing{"whiteout", 20'000, 320, 180, 1},
+                                                          // Headlamps graze the road: a texel is long there.
+                                                          Showing{"night", 20'000, 320, 180, 4, 1.5e-2}),
                                           testing::Values(scene::FlakePath::raster, scene::FlakePath::tiles)),
                          [](const testing::TestParamInfo<ShowingAndPath>& tested)
                          { return name_of(tested.param); });

@@ -22,6 +22,8 @@ struct Showing
     double time_s = 1;
     /// Share of the pixels that may be off by more than 1e-2.
     double most_share_off = 5e-4;
+    /// Relative L2 of the others.
+    double most_rest = 1e-3;
     scene::FlakePath path = scene::FlakePath::raster;
 };
 

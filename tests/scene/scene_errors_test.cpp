@@ -90,7 +90,7 @@ TEST(SceneErrors, UnknownNamesTheNearest)
 {
     const std::string tables =
         "use scene, domain, particles, simulation, snow, wind, vehicle, emitter, ground, box, model, voxels, "
-        "air, light, sky, camera, render, bloom or display";
+        "air, light, shadows, sky, camera, render, bloom or display";
     expect_errors({
         {with("[scene]\nsede = 4\n"),
          "s.toml:10: scene.sede = 4 is not known (the nearest known one is scene.seed); use name, about, "
@@ -486,6 +486,13 @@ TEST(SceneErrors, Contradictions)
          "s.toml:12: light[1].intensity_w_sr = [1, 1, 1] has no effect here (it counts only with kind = "
          "\"point\" or \"spot\"); "
          "remove it, or make that so"},
+        {with("[[light]]\nkind = \"point\"\nposition_m = [1, 1, 1]\nintensity_w_sr = [1, 1, 1]\nshadow = "
+              "true\n"),
+         "s.toml:13: light[1].shadow = true has no effect here (it counts only with kind = \"spot\" or "
+         "\"directional\"); remove it, or make that so"},
+        {with("[shadows]\nmap_px = 512\n"),
+         "s.toml:10: shadows.map_px = 512 has no effect here (it counts only with a [[light]] that has "
+         "shadow = true); remove it, or make that so"},
         {with("[[light]]\nkind = \"directional\"\ndirection = [0, 0, 0]\nirradiance_w_m2 = [1, 1, 1]\n"),
          "s.toml:11: light[1].direction = [0, 0, 0] has no length (it points nowhere); use a vector longer "
          "than 1e-6"},

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "core/phase.h"
+#include "cpu/tile_splatter.h"
+#include "gl/context.h"
+#include "image/compare.h"
+#include "reference/reference.h"
+#include "tests/golden/gl_picture.h"
+#include "tests/golden/small_scenes.h"
+
+namespace spindrift::golden
+{
+namespace
+{
+
+using scene::FlakePath;
+
+/// Lamps that end after some metres, among the flakes: points and spots by turns.
+void add_lamps(SmallScene& small, int count)
+{
+    for (int i = 0; i < count; ++i)
+    {
+        scene::Light lamp;
+        lamp.position_m = {20.0 + 7 * std::sin(i * 2.4), 4.0 + 0.5 * i, 5.0 + 4 * std::cos(i * 1.7)};
+        lamp.intensity = {4, 3, static_cast<float>(i % 5)};
+        lamp.range_m = 2 + i % 7;
+        if (i % 2 == 1)
+        {
+            lamp.kind = scene::LightKind::spot;
+            lamp.direction = {0.6, 0, -0.8};
+            lamp.inner_cone_deg = 15;
+            lamp.outer_cone_deg = 20 + i % 60;
+        }
+        small.scene.lights.push_back(lamp);
+    }
+}
+
+SmallScene lit_scene(int lamps, bool thick)
+{
+    SmallScene small = flakes_by_a_wall(1000);
+    enlarge(small, 40);
+    light_up(small);
+    if (thick) thicken(small);
+    add_lamps(small, lamps);
+    return small;
+}
+
+/// Every frame twice: as it is asked, and with every lamp for every flake.
+class WithoutClustersToo final : public Splatter
+{
+  public:
+    void splat(const SplatJob& job, const SplatPicture& picture) override
+    {
+        clustered_ = clustered_ || job.clusters.words > 0;
+        const auto pixels =
+            static_cast<std::size_t>(picture.width_px) * static_cast<std::size_t>(picture.height_px);
+        std::vector<std::uint16_t> all(picture.rgba, picture.rgba + 4 * pixels);
+        SplatJob job_for_all = job;
+        job_for_all.clusters = {};
+        SplatPicture with_all = picture;
+        with_all.rgba = all.data();
+        with_all.tone = nullptr;
+        splatter_->splat(job_for_all, with_all);
+        splatter_->splat(job, picture);
+        same_ = same_ && std::equal(all.begin(), all.end(), picture.rgba);
+    }
+    bool clustered() const { return clustered_; }
+    bool same() const { return same_; }
+
+  private:
+    std::unique_ptr<Splatter> splatter_ = cpu::make_tile_splatter({});
+    bool clustered_ = false, same_ = true;
+};
+
+class ManyLamps : public testing::Test
+{
+  protected:
+    static void SetUpTestSuite() { context_ = gl::make_headless_context(); }
+    static void TearDownTestSuite() { context_.reset(); }
+    static std::unique_ptr<gl::Context> context_;
+
+    static image::Image reference_of(SmallScene& small)
+    {
+        return reference::render(small.scene, small.geometry, small.world, small.flakes.view(),
+                                 small.flakes.x.size(), small.view, small.time_s);
+    }
+};
+
+std::unique_ptr<gl::Context> ManyLamps::context_;
+
+TEST_F(ManyLamps, CountOnlyWhereTheyReachWithoutChangingABit)
+{
+    for (const bool thick : {false, true})
+        for (const int lamps : {2, 45})
+        {
+            SmallScene small = lit_scene(lamps, thick);
+            small.scene.render.flake_path = FlakePath::tiles;
+            WithoutClustersToo splatter;
+            draw_with_gl(small, splatter);
+            EXPECT_TRUE(splatter.clustered());
+            EXPECT_TRUE(splatter.same()) << lamps << " lamps" << (thick ? " in thick air" : "");
+        }
+}
+
+TEST_F(ManyLamps, LookLikeTheReferenceThatComputesThemAll)
+{
+    for (const bool thick : {false, true})
+    {
+        SmallScene small = lit_scene(25, thick);
+        const image::Image truth = reference_of(small);
+        SmallScene few = lit_scene(0, thick);
+        EXPECT_GT(image::compare(reference_of(few), truth, 1e-2).relative_l2, 0.02) << "the lamps matter";
+        for (const FlakePath path : {FlakePath::raster, FlakePath::tiles})
+        {
+            small.scene.render.flake_path = path;
+            const image::Difference off = image::compare(draw_with_gl(small).linear, truth, 1e-2);
+            EXPECT_LE(off.relative_l2, 1.5e-3) << thick;
+            EXPECT_LE(off.share_above, 1e-2) << thick;
+        }
+    }
+}
+
+TEST_F(ManyLamps, WithoutARangeEndWithinTheStatedError)
+{
+    SmallScene small = flakes_by_a_wall(1000);
+    enlarge(small, 40);
+    add_lamps(small, 30);
+    double most = 0;
+    const double dimmest = 0.02;
+    for (scene::Light& lamp : small.scene.lights)
+    {
+        lamp.range_m = std::numeric_limits<double>::infinity();
+        lamp.g = 0.5;
+        most += std::max(henyey_greenstein(0.5, 1.0), 1 / 3.14159) * dimmest;
+    }
+    const image::Image truth = reference_of(small);
+    for (const FlakePath path : {FlakePath::raster, FlakePath::tiles})
+    {
+        small.scene.render.flake_path = path;
+        small.scene.render.dimmest_lamp_w_m2 = 0;
+        const image::Image exact = draw_with_gl(small).linear;
+        small.scene.render.dimmest_lamp_w_m2 = dimmest;
+        const image::Difference off = image::compare(draw_with_gl(small).linear, exact, 1e-3);
+        EXPECT_GT(off.share_above, 0.1) << "it does something";
+        EXPECT_LE(off.worst, most);
+        EXPECT_LE(image::compare(exact, truth, 1e-2).relative_l2, 1e-3);
+    }
+}
+
+}  // namespace
+}  // namespace spindrift::golden
