@@ -94,6 +94,12 @@ void print_scene(const Explained& e)
                w.size_m.z, w.step_s, w.seed);
     fmt::print("  flakes      room for {}, {} emitter(s); each stands for {:g}; {:g} mm/h\n", w.capacity,
                w.emitters.size(), w.snow.weight, w.snow.rate_mm_h);
+    for (const Emitter& emitter : w.emitters)
+        if (emitter.shape == EmitterShape::drift)
+            fmt::print("  drift       {}\n", emitter.rate_per_s > 0
+                                                 ? fmt::format("{:.0f} drawn flakes/s, out of {:.3f} m",
+                                                               emitter.rate_per_s, emitter.radius_m)
+                                                 : "none: the wind is below the threshold");
     fmt::print("  wind        {}{}\n", name(w.wind.kind),
                w.wind.turbulent ? ", turbulent" : ", no turbulence");
     if (!w.wind.cells.empty())

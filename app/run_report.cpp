@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/build_info.h"
+#include "core/advect_job.h"
 #include "core/flake.h"
+#include "core/gradient_reach.h"
 #include "image/whole_file.h"
 
 namespace spindrift::app
@@ -164,6 +166,14 @@ std::vector<Skip> simulation_skips(const World& world, std::uint32_t reorder_eve
         skips.push_back({"re-ordering by cell", "simulation.reorder_every_steps is 0"});
     else if (world.wind.kind != WindKind::grid)
         skips.push_back({"re-ordering by cell", "the scene's wind has no cells"});
+    if (!steps_reach_walls(world))
+        skips.push_back({"steps cut before walls", "no step goes farther than a voxel"});
+    if (!world.snow.inertia)
+        skips.push_back({"inertia", "snow.inertia is false: flakes follow the air at once"});
+    if (world.snow.crossing == 0)
+        skips.push_back({"crossing trajectories", "snow.crossing is 0: flakes stay in their eddies"});
+    if (!advect_job(world, nullptr, {}).step.fine)
+        skips.push_back({"dice for the last place", "steps are long against the rounding of places"});
     if (world.anchors.empty()) skips.push_back({"moving skies", "no emitter follows a camera or vehicle"});
     return skips;
 }

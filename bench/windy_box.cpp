@@ -21,7 +21,7 @@ WindCell cell_at(float x, float y, float z)
     c.s11 = 1.5F + 0.3F * wave, c.s22 = 1.2F, c.s33 = 0.8F, c.s31 = -0.2F;
     c.div_s1 = 0.3F * slope;
     c.gradient = 0.02F;
-    c.rate1 = 0.3F, c.rate2 = 0.4F, c.rate3 = 4.0F / (1 + z);
+    c.c0_eps = 5.0F / (1 + z);
     return c;
 }
 

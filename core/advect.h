@@ -33,7 +33,20 @@ struct StepParams
     float dt_s = 0;
     std::uint64_t seed = 0;
     std::uint32_t number = 0;
+    bool inertial = false;       ///< FlakeView::slip is the whole velocity of a flake
+    bool near_walls = false;     ///< a step may go farther than a cell of the solids
+    bool fine = false;           ///< a step moves by so few last places that rounding needs its dice
+    float crossing_squared = 0;  ///< beta^2 of the crossing of trajectories; 0: none
 };
+
+/// Whether steps of this length are fine in a domain of this extent: air of 1 m/s then moves a flake by fewer
+/// than so many units in the last place of its coordinates, and the rounding of one step after the other
+/// would be felt (docs/physics.md "Far away and in small steps").
+inline constexpr double kFineLastPlaces = 256;
+SPINDRIFT_HD bool is_fine(double step_s, double extent_m)
+{
+    return step_s < kFineLastPlaces * 0x1p-24 * extent_m;
+}
 
 /// What a kernel has done besides while a pack moves, in four quarters spread over that work: here, nothing.
 struct NothingMeanwhile
@@ -83,18 +96,21 @@ struct FlakeAdvector
                 const Gaussians<R> noise = gaussians<R>(
                     step.seed, p.id, step.number, RandomStream::turbulence, static_cast<std::uint32_t>(k));
                 if (k == 0) meanwhile.quarter(2);
-                const Move move = turbulent_move(p, air, h, noise);
+                p.q = select(moving,
+                             relax(air, p.q, relaxation(air, p.fall, h), Vec3<R>{noise.x, noise.y, noise.z}),
+                             p.q);
+                alive = flow(p, air, h, moving, alive, static_cast<std::uint32_t>(k), tally);
                 if (k == 0) meanwhile.quarter(3);
-                alive = arrive(p, move, moving, alive, static_cast<std::uint32_t>(k), tally);
             }
         }
         else
         {
             meanwhile.quarter(1);
-            const Move move = smooth_move(p, R(step.dt_s));
+            Air<R> air{};
+            air.mean = wind.mean(p.x);
+            flow(p, air, R(step.dt_s), alive, alive, 0, tally);
             meanwhile.quarter(2);
             meanwhile.quarter(3);
-            arrive(p, move, alive, alive, 0, tally);
         }
         store_pack(first, p);
     }
@@ -126,7 +142,7 @@ struct FlakeAdvector
         p.slip = {load<R>(flakes.slip_x + i), load<R>(flakes.slip_y + i), load<R>(flakes.slip_z + i)};
         p.id = load<UInt>(flakes.id + i);
         p.state = state;
-        p.fall = fall_speed.template at<R>(p.id);
+        p.fall = fall_speed.template at<R>(p.id, state);
         return p;
     }
 
@@ -142,30 +158,87 @@ struct FlakeAdvector
         store(flakes.state + i, p.state);
     }
 
-    /// Relaxation of q over the whole sub-step, then the deterministic flow dx = (U + S q) dt, dq = div S dt
-    /// by the midpoint rule.
-    SPINDRIFT_HD Move turbulent_move(const Pack& p, const Air<R>& air, const R& h,
-                                     const Gaussians<R>& noise) const
+    /// The deterministic flow dx = (U + S q) dt, dq = div S dt over h seconds, from where `air` was sampled:
+    /// at once, or where walls are near and steps long in pieces that reach no farther than to the next wall.
+    /// Its pieces do not change what relaxes, so that there is no seam between them and whole steps
+    /// (docs/physics.md "Motion").
+    template <class Tally>
+    SPINDRIFT_HD Mask flow(Pack& p, Air<R>& air, const R& h, const Mask& moving, Mask alive,
+                           std::uint32_t substep, Tally& tally) const
     {
-        const Vec3<R> q = relax(p.q, air.rate, h, Vec3<R>{noise.x, noise.y, noise.z});
+        if (!step.near_walls) return arrive(p, move(p, air, h, substep), moving, alive, substep, tally);
+        R left = h;
+        for (int piece = 0; piece < kMostPieces; ++piece)
+        {
+            const Mask going = moving && alive && left > number<R>(0);
+            if (none(going)) break;
+            if (piece > 0) sample(p.x, air);
+            const R now = piece + 1 < kMostPieces ? min(left, time_to_wall(p, air, h)) : left;
+            const auto index =
+                substep * static_cast<std::uint32_t>(kMostPieces) + static_cast<std::uint32_t>(piece);
+            alive = arrive(p, move(p, air, now, index), going, alive, index, tally);
+            left = left - now;
+        }
+        return alive;
+    }
+
+    SPINDRIFT_HD void sample(const Vec3<R>& x, Air<R>& air) const
+    {
+        if constexpr (Turbulent)
+            air = wind.air(x);
+        else
+            air.mean = wind.mean(x);
+    }
+
+    /// Time in which the air carries a flake through cells that are surely free, or through one cell; not
+    /// less than an even share of h.
+    SPINDRIFT_HD R time_to_wall(const Pack& p, const Air<R>& air, const R& h) const
+    {
+        const Voxels& voxels = around.solids.voxels;
+        const R one = number<R>(1);
+        const R reach = max(to_real<R>(voxels.clearance_of(p.x)) - one, one) * R(voxels.cell_m);
+        const Vec3<R> u = velocity(air, p.q);
+        const R speed = max(max(abs(u.x), abs(u.y)), abs(u.z));
+        return max(reach / max(speed, number<R>(1e-6)), h * number<R>(1.0 / kMostPieces));
+    }
+
+    SPINDRIFT_HD static Vec3<R> velocity(const Air<R>& air, const Vec3<R>& q)
+    {
+        if constexpr (Turbulent)
+            return air.mean + turbulent_velocity(air, q);
+        else
+            return air.mean;
+    }
+
+    /// By the midpoint rule.
+    SPINDRIFT_HD Move move(const Pack& p, const Air<R>& air, const R& h, std::uint32_t substep) const
+    {
         const R half = h * number<R>(0.5);
         Move m;
-        m.air = wind.air(half_way(p, air.mean + turbulent_velocity(air, q), half));
-        const Vec3<R> q_half = {fma(half, air.div_s.x, q.x), fma(half, air.div_s.y, q.y),
-                                fma(half, air.div_s.z, q.z)};
-        m.q = {fma(h, m.air.div_s.x, q.x), fma(h, m.air.div_s.y, q.y), fma(h, m.air.div_s.z, q.z)};
-        finish(p, m.air.mean + turbulent_velocity(m.air, q_half), h, m);
+        m.air = Air<R>{};
+        sample(half_way(p, velocity(air, p.q), half), m.air);
+        m.q = p.q;
+        Vec3<R> q_half = p.q;
+        if constexpr (Turbulent)
+        {
+            const Vec3<R>& gain = air.div_s;
+            q_half = {fma(half, gain.x, p.q.x), fma(half, gain.y, p.q.y), fma(half, gain.z, p.q.z)};
+            const Vec3<R>& all = m.air.div_s;
+            m.q = {fma(h, all.x, p.q.x), fma(h, all.y, p.q.y), fma(h, all.z, p.q.z)};
+        }
+        finish(p, velocity(m.air, q_half), h, substep, m);
         return m;
     }
 
-    SPINDRIFT_HD Move smooth_move(const Pack& p, const R& h) const
+    /// C0 eps h / 4, and more of it where a flake falls out of its eddies (Csanady 1963): the time of the
+    /// turbulence that it meets is T / sqrt(1 + (beta v_t / sigma_w)^2).
+    SPINDRIFT_HD R relaxation(const Air<R>& air, const R& fall, const R& h) const
     {
-        Move m;
-        m.air = Air<R>{};
-        m.air.mean = wind.mean(half_way(p, wind.mean(p.x), h * number<R>(0.5)));
-        m.q = p.q;
-        finish(p, m.air.mean, h, m);
-        return m;
+        const R a = max(air.c0_eps, number<R>(0)) * (h * number<R>(0.25));
+        if (step.crossing_squared == 0) return a;
+        const R up = fma(air.s33, air.s33, fma(air.s32, air.s32, air.s31 * air.s31));
+        const R crossing = R(step.crossing_squared) * (fall * fall) / max(up, number<R>(1e-12));
+        return a * sqrt(number<R>(1) + min(crossing, number<R>(1e6)));
     }
 
     SPINDRIFT_HD Vec3<R> half_way(const Pack& p, const Vec3<R>& air, const R& half) const
@@ -173,26 +246,50 @@ struct FlakeAdvector
         return {fma(half, air.x, p.x.x), fma(half, air.y, p.x.y), fma(half, air.z - p.fall, p.x.z)};
     }
 
-    /// Path of air plus settling plus slip; the slip decays with tau = v_t / g, and its path is exact.
-    SPINDRIFT_HD void finish(const Pack& p, const Vec3<R>& air, const R& h, Move& m) const
+    /// Path of air plus settling plus slip; the slip decays with tau = v_t / g, and its path is exact. A
+    /// flake with inertia has a velocity instead: its slip is what that exceeds the air of this step by.
+    SPINDRIFT_HD void finish(const Pack& p, const Vec3<R>& air, const R& h, std::uint32_t substep,
+                             Move& m) const
     {
-        m.path = {h * air.x, h * air.y, h * (air.z - p.fall)};
-        m.slip = p.slip;
+        const Vec3<R> carried{air.x, air.y, air.z - p.fall};
+        m.path = carried * h;
+        m.slip = step.inertial ? p.slip - carried : p.slip;
         const R zero = number<R>(0);
-        const Mask slipping = p.slip.x != zero || p.slip.y != zero || p.slip.z != zero;
-        if (none(slipping)) return;
-        const R tau = p.fall * number<R>(1.0 / kGravity);
+        const Mask slipping = m.slip.x != zero || m.slip.y != zero || m.slip.z != zero;
+        if (!none(slipping)) fade(p.fall, h, slipping, m);
+        if (step.inertial) m.slip = m.slip + carried;
+        if (step.fine) roll_rounding(p, substep, m.path);
+    }
+
+    SPINDRIFT_HD static void fade(const R& fall, const R& h, const Mask& slipping, Move& m)
+    {
+        const R tau = fall * number<R>(1.0 / kGravity);
         const R kept = exp(-(h / tau));
         const R path = tau * (number<R>(1) - kept);
-        const auto fade = [&](const R& slip, R& along, R& left)
+        const auto one = [&](R& slip, R& along)
         {
             along = select(slipping, fma(slip, path, along), along);
             const R faded = slip * kept;
-            left = select(abs(faded) < number<R>(kLeastSlip), zero, faded);
+            slip = select(abs(faded) < number<R>(kLeastSlip), number<R>(0), faded);
         };
-        fade(p.slip.x, m.path.x, m.slip.x);
-        fade(p.slip.y, m.path.y, m.slip.y);
-        fade(p.slip.z, m.path.z, m.slip.z);
+        one(m.slip.x, m.path.x);
+        one(m.slip.y, m.path.y);
+        one(m.slip.z, m.path.z);
+    }
+
+    /// Adds half a last place of the position either way, uniformly: the rounding of the sum is then right on
+    /// average, however short the path.
+    SPINDRIFT_HD void roll_rounding(const Pack& p, std::uint32_t substep, Vec3<R>& path) const
+    {
+        const auto words = random_words(step.seed, p.id, step.number, RandomStream::rounding, substep);
+        const auto roll = [](const R& x, const UInt& word, R& along)
+        {
+            const R place = from_bits(bits(x) & UInt(0x7F800000U)) * number<R>(0x1p-23);
+            along = fma(uniform<R>(word) - number<R>(0.5), place, along);
+        };
+        roll(p.x.x, words.x0, path.x);
+        roll(p.x.y, words.x1, path.y);
+        roll(p.x.z, words.x2, path.z);
     }
 
     /// Puts the moving lanes at the end of their path, or where what they met leaves them. Returns who is
@@ -229,7 +326,7 @@ struct FlakeAdvector
         float fall[width];
         std::uint32_t id[width], state[width];
         store(fall, p.fall), store(id, p.id), store(state, p.state);
-        const Resolver resolve{around, step.seed, step.number, substep, Turbulent};
+        const Resolver resolve{around, step.seed, step.number, substep, Turbulent, step.inertial};
         for (; lanes != 0; lanes &= lanes - 1)
         {
             const int l = lowest_lane(lanes);

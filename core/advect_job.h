@@ -25,14 +25,19 @@ struct AdvectJob
     FlakeView flakes{};
 };
 
-/// The job of any step, but for its number, flakes and regions. `cells` and the addresses in `solids` are
-/// those of the memory that the job will run in; the cells' gradients are spread (core/gradient_reach.h).
+/// The job of any step, but for its number, flakes, regions and StepParams::near_walls. `cells` and the
+/// addresses in `solids` are those of the memory that the job will run in; the cells' gradients are spread
+/// (core/gradient_reach.h).
 inline AdvectJob advect_job(const World& world, const WindCell* cells, const Solids& solids)
 {
     const Wind& wind = world.wind;
     AdvectJob job;
     job.step.dt_s = static_cast<float>(world.step_s);
     job.step.seed = world.seed;
+    job.step.inertial = world.snow.inertia;
+    job.step.crossing_squared = world.snow.crossing * world.snow.crossing;
+    job.step.fine =
+        is_fine(world.step_s, static_cast<double>(max(max(world.size_m.x, world.size_m.y), world.size_m.z)));
     job.wind_kind = wind.kind;
     job.turbulent = wind.turbulent;
     const SurfaceLayer layer = surface_layer(wind);
@@ -40,6 +45,10 @@ inline AdvectJob advect_job(const World& world, const WindCell* cells, const Sol
     job.logarithmic = {layer, wind.to_x, wind.to_y};
     if (wind.kind == WindKind::grid) job.grid = grid_wind(wind, cells);
     job.fall_speed = FallSpeed(world.snow, world.seed);
+    job.fall_speed.grains = GrainSpeed(world.grains);
+    for (std::size_t e = world.emitters.size(); e > 0 && world.emitters[e - 1].shape == EmitterShape::drift;
+         --e)
+        job.fall_speed.first_drift = static_cast<std::int32_t>(e - 1);
     job.around.on_leave = world.on_leave;
     job.around.solids = solids;
     job.around.one_region = true;

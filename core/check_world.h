@@ -69,6 +69,12 @@ inline void check_world(const World& world)
                     " flakes (slots are counted in 32 bits); use fewer than 2^32");
     if (!(world.step_s > 0) || !is_finite(world.step_s))
         throw Error("step of " + std::to_string(world.step_s) + " s; use more than 0");
+    for (std::size_t i = 1; i < world.emitters.size(); ++i)
+        if (world.emitters[i - 1].shape == EmitterShape::drift &&
+            world.emitters[i].shape != EmitterShape::drift)
+            throw Error("emitter " + std::to_string(i + 1) +
+                        " comes after a drift (a flake is known for a grain by its emitter's number); put "
+                        "drifts last");
     for (const Emitter& e : world.emitters)
         if (e.anchor >= 0 && (static_cast<std::size_t>(e.anchor) >= world.anchors.size() ||
                               world.anchors[static_cast<std::size_t>(e.anchor)].keys.empty()))

@@ -82,7 +82,9 @@ struct EmissionLedger
         const Emitter& emitter = emitters[e];
         const std::uint64_t burst = step == 0 ? emitter.burst : 0;
         if (emitter.shape == EmitterShape::sky) return burst + owed[e];
-        return burst + owed[e] + emitted_in_step(emitter.rate_per_s, step_s, step);
+        const std::uint64_t steady = burst + emitted_in_step(emitter.rate_per_s, step_s, step);
+        return emitter.shape == EmitterShape::drift ? steady
+                                                    : steady + owed[e];  // the ground gives what it gives
     }
 };
 

@@ -29,7 +29,7 @@ SPINDRIFT_HD std::uint64_t emitted_in_step(double rate_per_s, double step_s, std
 enum class StartPlace : std::uint32_t
 {
     anywhere,  ///< uniform on the emitter's shape
-    top,       ///< sky only: uniform on the top face, for flakes that replace others
+    top,       ///< of later steps: a sky's on its top face, a drift's in the saltation layer
 };
 
 /// Uniform random positions on the shape of an emitter, from the flake's id alone. `centre` replaces
@@ -71,12 +71,29 @@ struct StartSampler
             case EmitterShape::sphere_volume:
                 return a +
                        on_unit_sphere(s, t) * (pow(u, number<R>(1.0 / 3.0)) * number<R>(emitter.radius_m));
+            case EmitterShape::drift:  // see drifting()
             case EmitterShape::sky:
                 break;
         }
         const R half = number<R>(0.5);
         const R height = place == StartPlace::top ? half : u - half;
         return scaled(widen(centre), widen(emitter.b), s - half, t - half, height);
+    }
+
+    /// On the ground of a drift, for a grain with this fall speed: `anywhere` as high as such grains hang in
+    /// the wind, else evenly in the saltation layer.
+    SPINDRIFT_HD Vec3<R> drifting(UIntOf<R> id, const R& fall, StartPlace place, std::uint32_t step,
+                                  std::uint32_t attempt) const
+    {
+        const auto words = random_words(seed, id, step, RandomStream::emission, attempt);
+        const Vec3<R> a = widen(emitter.a);
+        const Vec3<R> edges = widen(emitter.b) - a;
+        const R layer = number<R>(emitter.radius_m);
+        const R share = uniform<R>(words.x2);
+        const R up = place == StartPlace::anywhere
+                         ? suspended_height(fall, number<R>(emitter.lift_m_s), layer, edges.z, share)
+                         : share * layer;
+        return {a.x + edges.x * uniform<R>(words.x0), a.y + edges.y * uniform<R>(words.x1), a.z + up};
     }
 
   private:

@@ -126,6 +126,7 @@ struct EncounterResolver
     std::uint32_t step;
     std::uint32_t substep;
     bool turbulent;
+    bool inertial;  ///< Encounter::slip is the whole velocity
 
     /// A flake that is still under way after so many borders in one sub-step stays where the last one left
     /// it.
@@ -137,7 +138,7 @@ struct EncounterResolver
     SPINDRIFT_HD void operator()(Encounter& f, Tally& tally) const
     {
         const Region& region = around.regions[f.emitter()];
-        Vec3f velocity = air_velocity(f) + f.slip;
+        Vec3f velocity = inertial ? f.slip : air_velocity(f) + f.slip;
         bool bounced = false;
         VoxelWalker<float> walk(around.solids);
         for (int borders = 0; borders < kMostBorders; ++borders)
@@ -157,7 +158,7 @@ struct EncounterResolver
             if (border.axis < 0) break;
             if (!cross(f, region, border, tally)) return;
         }
-        if (bounced) f.slip = velocity - air_velocity(f);
+        if (bounced) f.slip = inertial ? velocity : velocity - air_velocity(f);
         if (region.sky) fold(f, region, tally);
     }
 
@@ -201,7 +202,7 @@ struct EncounterResolver
     SPINDRIFT_HD static Border border_after_bounce(const Encounter& f, const Region& region,
                                                    const Border& planned, const WalkResult<float>& walked)
     {
-        if (planned.axis >= 0 && (walked.mirrored >> planned.axis & 1U) == 0) return planned;
+        if (planned.axis >= 0 && (walked.turned >> planned.axis & 1U) == 0) return planned;
         Border border;
         for (int axis = 0; axis < 3; ++axis)
         {

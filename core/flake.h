@@ -29,7 +29,7 @@ struct FlakeView
     float* q1;  ///< whitened turbulent velocity, dimensionless: u' = S(x) q
     float* q2;
     float* q3;
-    float* slip_x;  ///< velocity in excess of air + settling, m/s; decays by drag
+    float* slip_x;  ///< velocity in excess of air + settling, m/s; decays by drag. With inertia: velocity
     float* slip_y;
     float* slip_z;
     std::uint32_t* id;     ///< serial number of emission, modulo 2^32; size, speed and look derive from it

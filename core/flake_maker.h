@@ -30,16 +30,11 @@ struct FlakeMaker
         bool blocked = true;
         for (std::uint32_t attempt = 0; attempt < kPlaces && blocked; ++attempt)
         {
-            x = position(emitter, job.around.regions[e], id, place, attempt);
+            x = position(emitter, e, id, place, attempt);
             blocked = job.around.is_blocked(x);
         }
         const Vec3f q = turbulence(id);
-        Vec3f slip{0, 0, 0};
-        if (!emitter.at_rest_in_air)
-        {
-            slip = emitter.velocity_m_s - air_velocity(x, q);
-            slip.z += job.fall_speed.at<float>(id);
-        }
+        const Vec3f slip = start_slip(emitter, job.fall_speed.at<float>(id, e << 8), x, q);
         f.x[slot] = x.x, f.y[slot] = x.y, f.z[slot] = x.z;
         f.q1[slot] = q.x, f.q2[slot] = q.y, f.q3[slot] = q.z;
         f.slip_x[slot] = slip.x, f.slip_y[slot] = slip.y, f.slip_z[slot] = slip.z;
@@ -50,12 +45,25 @@ struct FlakeMaker
 
   private:
     /// Where a flake starts; `attempt` > 0 are other places for it.
-    SPINDRIFT_HD Vec3f position(const Emitter& emitter, const Region& region, std::uint32_t id,
-                                StartPlace place, std::uint32_t attempt) const
+    SPINDRIFT_HD Vec3f position(const Emitter& emitter, std::uint32_t e, std::uint32_t id, StartPlace place,
+                                std::uint32_t attempt) const
     {
         const bool sky = emitter.shape == EmitterShape::sky;
+        const Region& region = job.around.regions[e];
         const Vec3f centre = sky ? (region.lower + region.upper) * 0.5F : emitter.a;
-        return StartSampler<float>(emitter, step.seed, centre)(id, place, step.number, attempt);
+        const StartSampler<float> sampler(emitter, step.seed, centre);
+        if (emitter.shape != EmitterShape::drift) return sampler(id, place, step.number, attempt);
+        return sampler.drifting(id, job.fall_speed.at<float>(id, e << 8), place, step.number, attempt);
+    }
+
+    /// A flake with inertia holds its velocity there.
+    SPINDRIFT_HD Vec3f start_slip(const Emitter& emitter, float fall, const Vec3f& x, const Vec3f& q) const
+    {
+        if (emitter.at_rest_in_air && !job.step.inertial) return {0, 0, 0};
+        if (!emitter.at_rest_in_air && job.step.inertial) return emitter.velocity_m_s;
+        Vec3f carried = air_velocity(x, q);
+        carried.z -= fall;
+        return emitter.at_rest_in_air ? carried : emitter.velocity_m_s - carried;
     }
 
     SPINDRIFT_HD Vec3f turbulence(std::uint32_t id) const

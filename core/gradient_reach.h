@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/math.h"
 #include "core/number.h"
+#include "core/turbulence.h"
 #include "core/world.h"
 
 namespace spindrift
@@ -41,6 +43,32 @@ inline void spread_maximum(std::vector<float>& values, std::size_t before, std::
 }
 
 }  // namespace detail
+
+/// Whether air of this World may carry a flake farther in a step than a cell of the solids is wide: at its
+/// largest speed and three times its largest sigma.
+inline bool steps_reach_walls(const World& world)
+{
+    if (world.voxels.nx == 0) return false;
+    const Wind& wind = world.wind;
+    const auto size = [](float a, float b, float c) { return std::max({abs(a), abs(b), abs(c)}); };
+    const float u = wind.friction_velocity_m_s;
+    const float logarithmic =
+        u / static_cast<float>(kVonKarman) *
+        static_cast<float>(log(1 + static_cast<double>(world.size_m.z / wind.roughness_m)));
+    const float gusts = wind.turbulent ? 3 * static_cast<float>(kSigmaAlong) * u : 0.0F;
+    float fastest = 0;
+    if (wind.kind == WindKind::uniform)
+        fastest = size(wind.uniform_m_s.x, wind.uniform_m_s.y, wind.uniform_m_s.z) + gusts;
+    if (wind.kind == WindKind::logarithmic) fastest = logarithmic + gusts;
+    if (wind.kind == WindKind::grid)
+        for (const WindCell& c : wind.cells)
+        {
+            const float variance = std::max({c.s11 * c.s11, c.s21 * c.s21 + c.s22 * c.s22,
+                                             c.s31 * c.s31 + c.s32 * c.s32 + c.s33 * c.s33});
+            fastest = std::max(fastest, size(c.u, c.v, c.w) + (wind.turbulent ? 3 * sqrt(variance) : 0.0F));
+        }
+    return static_cast<double>(fastest) * world.step_s > static_cast<double>(world.voxels.cell_m);
+}
 
 /// Replaces each cell's gradient by the largest within the reach of a flake's turbulence in one step, twice
 /// the largest sigma times dt. How often a step is cut must not change within the reach of a step: at the

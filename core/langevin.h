@@ -14,6 +14,9 @@ inline constexpr double kGradientLimit = 0.15;
 /// Most sub-steps that one step is cut into.
 inline constexpr int kMostSubsteps = 64;
 
+/// Most pieces in which a sub-step flows near walls.
+inline constexpr int kMostPieces = 16;
+
 /// Into how many sub-steps a step of h seconds is cut where the largest |dS/dx| is `gradient`: 1 …
 /// kMostSubsteps.
 template <class R>
@@ -24,23 +27,46 @@ SPINDRIFT_HD IntOf<R> substeps(const R& gradient, const R& h)
     return truncate_to_int(max(min(wanted, most), number<R>(1.0)));
 }
 
-/// One Ornstein-Uhlenbeck step of a component of unit variance by Cayley's r = (1 - a/2) / (1 + a/2), a =
-/// rate h: stationary variance and diffusivity are exact for every a. `noise` is a standard Gaussian. Source:
-/// docs/physics.md "Turbulence"; sqrt(1 - r^2) = sqrt(2a) / (1 + a/2) without cancellation.
-template <class R>
-SPINDRIFT_HD R relax(const R& q, const R& rate, const R& h, const R& noise)
-{
-    const R a = min(rate * h, number<R>(1e6));  // r is -1 to rounding from here on
-    const R half = a * number<R>(0.5);
-    const R inverse = number<R>(1.0) / (number<R>(1.0) + half);
-    const R r = (number<R>(1.0) - half) * inverse;
-    return fma(r, q, sqrt(a + a) * inverse * noise);
-}
+/// Pivots below this share of their diagonal are rounding: no stress that is realizable has them.
+inline constexpr double kLeastPivotShare = 1e-6;
 
+/// One Ornstein-Uhlenbeck step of q over h seconds, dq = -M q dt + sqrt(C0 eps) S^-1 dW with M = (C0 eps / 2)
+/// (S^T S)^-1, by Cayley's r = (1 + h M / 2)^-1 (1 - h M / 2): variance and diffusivity are exact for every
+/// h, and the velocity S q has the increments of Kolmogorov, C0 eps dt in all directions alike. With a = C0
+/// eps h / 4 it is q' = 2 y - q, (S^T S + a) y = S^T (S q + sqrt(a) noise): nothing is divided by S, which
+/// may be zero. `noise`: standard Gaussians. Source: docs/physics.md "Turbulence".
 template <class R>
-SPINDRIFT_HD Vec3<R> relax(const Vec3<R>& q, const Vec3<R>& rate, const R& h, const Vec3<R>& noise)
+SPINDRIFT_HD Vec3<R> relax(const Air<R>& s, const Vec3<R>& q, const R& a, const Vec3<R>& noise)
 {
-    return {relax(q.x, rate.x, h, noise.x), relax(q.y, rate.y, h, noise.y), relax(q.z, rate.z, h, noise.z)};
+    const R root = sqrt(a);
+    const Vec3<R> w{fma(root, noise.x, s.s11 * q.x), fma(root, noise.y, fma(s.s22, q.y, s.s21 * q.x)),
+                    fma(root, noise.z, fma(s.s33, q.z, fma(s.s32, q.y, s.s31 * q.x)))};
+    const R t1 = fma(s.s31, w.z, fma(s.s21, w.y, s.s11 * w.x));
+    const R t2 = fma(s.s32, w.z, s.s22 * w.y);
+    const R t3 = s.s33 * w.z;
+    // S^T S, and its LDL^T with a on the diagonal
+    const R b12 = fma(s.s31, s.s32, s.s21 * s.s22);
+    const R b13 = s.s31 * s.s33;
+    const R b23 = s.s32 * s.s33;
+    const R a1 = fma(s.s31, s.s31, fma(s.s21, s.s21, fma(s.s11, s.s11, a)));
+    const R a2 = fma(s.s32, s.s32, fma(s.s22, s.s22, a));
+    const R a3 = fma(s.s33, s.s33, a);
+    const R one = number<R>(1.0);
+    const R least = number<R>(kLeastPivotShare);
+    const R tiny = number<R>(1e-30);
+    const R i1 = one / max(a1, tiny);
+    const R l21 = b12 * i1;
+    const R l31 = b13 * i1;
+    const R i2 = one / max(fma(-l21, b12, a2), fma(least, a2, tiny));
+    const R m32 = fma(-l31, b12, b23);
+    const R l32 = m32 * i2;
+    const R i3 = one / max(fma(-l32, m32, fma(-l31, b13, a3)), fma(least, a3, tiny));
+    const R z2 = fma(-l21, t1, t2);
+    const R z3 = fma(-l32, z2, fma(-l31, t1, t3));
+    const R y3 = z3 * i3;
+    const R y2 = fma(-l32, y3, z2 * i2);
+    const R y1 = fma(-l31, y3, fma(-l21, y2, t1 * i1));
+    return {y1 + y1 - q.x, y2 + y2 - q.y, y3 + y3 - q.z};
 }
 
 }  // namespace spindrift

@@ -43,6 +43,7 @@ enum class RandomStream : std::uint32_t
     emission = 1,
     turbulence_start = 2,
     respawn = 3,
+    rounding = 4,
 };
 
 /// The words of flake `id` (any emission serial number modulo 2^32) in time step `step`; `substep` counts

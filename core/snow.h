@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "core/drift.h"
 #include "core/philox.h"
 #include "core/world.h"
 
@@ -62,6 +63,13 @@ SPINDRIFT_HD double water_content_g_m3(SizeSpectrum spectrum, double rate_mm_h)
 SPINDRIFT_HD double extinction_per_km(SizeSpectrum spectrum, double rate_mm_h)
 {
     return 3.0 / kFlakeDensity * water_content_g_m3(spectrum, rate_mm_h);
+}
+
+/// Mean of pi D^2 / 4 over the flakes, m2: D^2 = D_m^3 / 0.17, <D_m^3> = 6 / Lambda^3.
+SPINDRIFT_HD double mean_cross_section_m2(SizeSpectrum spectrum, double rate_mm_h)
+{
+    const SizeLaw law = size_law(spectrum, rate_mm_h);
+    return 3.14159265358979323846e-6 * 1.5 / (kFlakeDensity * law.slope * law.slope * law.slope);
 }
 
 /// Terminal speed v = factor · D^power, D in mm, v in m/s. Locatelli and Hobbs 1974.
@@ -181,6 +189,8 @@ struct FallSpeed
     float factor = 1;  ///< m/s at 1 mm
     float power = 0;
     float spread_m_s = 0;
+    std::int32_t first_drift = 256;  ///< number of the first emitter of grains; 256: there is none
+    GrainSpeed grains;
     float least_m_s = static_cast<float>(kLeastFallSpeed_m_s);
 
     FallSpeed() = default;
@@ -195,6 +205,17 @@ struct FallSpeed
         if (!(snow.fall_speed_m_s >= 0)) return;
         factor = snow.fall_speed_m_s, power = 0;
         least_m_s = min(least_m_s, snow.fall_speed_m_s);
+    }
+
+    /// Of a flake with this state (core/flake.h): a grain of drift, or a flake.
+    template <class R>
+    SPINDRIFT_HD R at(UIntOf<R> id, UIntOf<R> state) const
+    {
+        const R flake = at<R>(id);
+        if (first_drift > 255) return flake;
+        const R grain = grains.at(trait_deviation<R>(trait_hash(seed, id, Trait::fall_speed)));
+        const auto emitter = as_int((state >> 8) & UIntOf<R>(0xFFU));
+        return select(emitter < IntOf<R>(first_drift), flake, grain);
     }
 
     /// m/s, downwards, at least 0.05 unless all are to fall more slowly. The diameter stays a logarithm: D =

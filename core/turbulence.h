@@ -29,10 +29,6 @@ struct StressRoot
 /// not disturbed.
 inline constexpr double kRealizabilityFloor = 0.01;
 
-/// Upper bound of relaxation rates, 1/s: air so calm that its rate would be infinite has no turbulent
-/// velocity either.
-inline constexpr double kLargestRatePerS = 1000;
-
 namespace detail
 {
 
@@ -121,22 +117,6 @@ SPINDRIFT_HD StressRoot<R> stress_root(const Stress<R>& t)
     s.s32 = (t.yz - s.s31 * s.s21) / s.s22;
     s.s33 = sqrt(max(t.zz - s.s31 * s.s31 - s.s32 * s.s32, R(0)));
     return s;
-}
-
-/// Relaxation rates of q: (C0 eps / 2) (S^-1 S^-T)_jj, 1/s, at most kLargestRatePerS.
-template <class R>
-SPINDRIFT_HD Vec3<R> relaxation_rates(const StressRoot<R>& s, R c0_eps_m2_s3)
-{
-    const R largest = R(kLargestRatePerS);
-    if (!(s.s11 > R(0) && s.s22 > R(0) && s.s33 > R(0))) return {largest, largest, largest};
-    // S^-1 is lower triangular too; (S^-1 S^-T)_jj is the squared length of its row j
-    const R i11 = R(1) / s.s11, i22 = R(1) / s.s22, i33 = R(1) / s.s33;
-    const R i21 = -s.s21 * i11 * i22;
-    const R i32 = -s.s32 * i22 * i33;
-    const R i31 = -(s.s31 * i11 + s.s32 * i21) * i33;
-    const R half = max(c0_eps_m2_s3, R(0)) * R(0.5);
-    return {min(half * (i11 * i11), largest), min(half * (i21 * i21 + i22 * i22), largest),
-            min(half * (i31 * i31 + i32 * i32 + i33 * i33), largest)};
 }
 
 // The neutral surface layer. f = u* (1 - d/zi)^(3/4) scales sigma = (2.5, 2.0, 1.3) f along, across and up,

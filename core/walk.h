@@ -129,6 +129,7 @@ struct WalkResult
     Vec3<R> end{};
     Fate fate = Fate::alive;     ///< alive, landed or vanished
     std::uint32_t mirrored = 0;  ///< bit k: the flake flies mirrored along axis k (an odd number of bounces)
+    std::uint32_t turned = 0;    ///< bit k: it bounced along axis k
     Vec3<R> kept{R(1), R(1),
                  R(1)};  ///< factor of its own velocity per axis: product of -restitution over bounces
     int bounces = 0;
@@ -164,7 +165,6 @@ class VoxelWalker
         result_ = WalkResult<R>{};
         result_.end = start;
         time_ = R(0);
-        turned_ = 0;
         if (!begin(start, displacement)) return false;
         for (int events = 0; time_ < R(1); ++events)
         {
@@ -338,7 +338,7 @@ class VoxelWalker
         }
         axis.mirror(face);
         result_.mirrored ^= 1U << k;
-        turned_ |= 1U << k;
+        result_.turned |= 1U << k;
         ++result_.bounces;
         R& kept = k == 0 ? result_.kept.x : k == 1 ? result_.kept.y : result_.kept.z;
         kept = kept * -R(surface.restitution);
@@ -359,7 +359,7 @@ class VoxelWalker
     SPINDRIFT_HD void finish_whole(const Vec3<R>& start, const Vec3<R>& displacement)
     {
         const Vec3<R> straight = start + displacement;
-        const auto turned = [this](int k) { return ((turned_ >> k) & 1U) != 0; };
+        const auto turned = [this](int k) { return ((result_.turned >> k) & 1U) != 0; };
         Vec3<R> end{turned(0) ? to_metres(0, axes_[0].at(R(1))) : straight.x,
                     turned(1) ? to_metres(1, axes_[1].at(R(1))) : straight.y,
                     turned(2) ? to_metres(2, axes_[2].at(R(1))) : straight.z};
@@ -394,8 +394,7 @@ class VoxelWalker
     WalkResult<R> result_;
     Axis axes_[3];
     R time_{};
-    R ground_{};                ///< height of the ground in cells
-    std::uint32_t turned_ = 0;  ///< bit k: axis k has bounced
+    R ground_{};  ///< height of the ground in cells
 };
 
 }  // namespace spindrift

@@ -21,7 +21,7 @@ struct Air
     Vec3<R> mean;                    ///< m/s
     R s11, s21, s22, s31, s32, s33;  ///< lower-triangular root of the stress tensor, m/s
     Vec3<R> div_s;                   ///< d_i S_ij for j = 1, 2, 3, in 1/s
-    Vec3<R> rate;                    ///< relaxation rate of q_j, 1/s
+    R c0_eps;                        ///< C0 eps, m2/s3, not negative
     R gradient;                      ///< largest |dS/dx|, 1/s
 };
 
@@ -43,7 +43,7 @@ struct SurfaceLayer
     float inverse_boundary_layer_per_m = 0;
     float roughness_m = 0.1F;
     float s11 = 0, s21 = 0, s22 = 0, s31 = 0, s32 = 0, s33 = 0;  ///< root of the stress tensor over f^2
-    float rate1 = 0, rate2 = 0, rate3 = 0;  ///< diagonal of (S^-1 S^-T) f^2, times 5.7 / (2 kappa)
+    float dissipation = 0;  ///< C0 eps at 1 m, without its decline, m2/s3
     float largest_s = 0;
 };
 
@@ -55,7 +55,6 @@ inline SurfaceLayer surface_layer(const Wind& wind)
     Stress<double> stress = neutral_normal_stress(c, s);
     stress.xz = -c, stress.yz = -s;
     const StressRoot<double> root = stress_root(stress);
-    const Vec3d rate = relaxation_rates(root, kKolmogorovC0 / kVonKarman);
     const auto f = [](double v) { return static_cast<float>(v); };
     SurfaceLayer layer;
     layer.friction_velocity_m_s = wind.friction_velocity_m_s;
@@ -64,7 +63,7 @@ inline SurfaceLayer surface_layer(const Wind& wind)
     layer.roughness_m = wind.roughness_m;
     layer.s11 = f(root.s11), layer.s21 = f(root.s21), layer.s22 = f(root.s22);
     layer.s31 = f(root.s31), layer.s32 = f(root.s32), layer.s33 = f(root.s33);
-    layer.rate1 = f(rate.x), layer.rate2 = f(rate.y), layer.rate3 = f(rate.z);
+    layer.dissipation = f(neutral_dissipation(static_cast<double>(wind.friction_velocity_m_s), 1.0));
     layer.largest_s = f(max(root.s11, max(abs(root.s22), root.s33)));
     return layer;
 }
@@ -91,8 +90,7 @@ SPINDRIFT_HD void sample_surface_layer(const SurfaceLayer& layer, const R& z, Ai
     air.s32 = f * R(layer.s32);
     air.s33 = f * R(layer.s33);
     air.div_s = {slope * R(layer.s31), slope * R(layer.s32), slope * R(layer.s33)};
-    const R scale = R(layer.friction_velocity_m_s) * dissipation_decline(part) / (d * (share * root));
-    air.rate = {scale * R(layer.rate1), scale * R(layer.rate2), scale * R(layer.rate3)};
+    air.c0_eps = R(layer.dissipation) * dissipation_decline(part) / d;
     air.gradient = abs(slope) * R(layer.largest_s);
 }
 
@@ -218,7 +216,7 @@ SPINDRIFT_HD Air<R> air_of_record(const R (&v)[16])
     a.gradient = v[3];
     a.s11 = v[4], a.s21 = v[5], a.s22 = v[6], a.s31 = v[7], a.s32 = v[8], a.s33 = v[9];
     a.div_s = {v[10], v[11], v[12]};
-    a.rate = {v[13], v[14], v[15]};
+    a.c0_eps = v[13];
     return a;
 }
 

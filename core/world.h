@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/drift.h"
 #include "core/vec.h"
 
 namespace spindrift
@@ -36,14 +37,16 @@ enum class EmitterShape : std::uint32_t
     sphere_volume,   ///< uniform in it
     plane,           ///< parallelogram: a + s (b - a) + t (c - a)
     box,             ///< axes-parallel, from `a` to `b`
-    sky,  ///< box of size `b` centred on `a`, or on a moving anchor; wraps; keeps `burst` flakes alive
+    sky,    ///< box of size `b` centred on `a`, or on a moving anchor; wraps; keeps `burst` flakes alive
+    drift,  ///< the ground below the box from `a` to `b`: snow that the wind takes up; last among emitters
 };
 
 struct Emitter
 {
     EmitterShape shape = EmitterShape::point;
     Vec3f a{}, b{}, c{};
-    float radius_m = 0;
+    float radius_m = 0;          ///< sphere; drift: height of the saltation layer
+    float lift_m_s = 0;          ///< drift: K_zz / z, for what hangs in the air at the start
     double rate_per_s = 0;       ///< drawn flakes per second; exact in the long run for any dt
     std::uint64_t burst = 0;     ///< drawn flakes at t = 0
     Vec3f velocity_m_s{};        ///< at emission, relative to the ground
@@ -75,18 +78,19 @@ struct Snow
     float fall_speed_m_s = -1;           ///< of every size; 0: a tracer; negative: by crystal and size
     float weight =
         1.0F;  ///< real flakes that one drawn flake stands for; > 0; used wherever light is counted
+    bool inertia = false;  ///< velocities follow the air within v_t / g instead of at once
+    float crossing = 0;    ///< beta: how fast a flake falls out of its eddies; 0: it stays in them
 };
 
 /// One wind cell: four 16-byte records that a GPU reads whole. Sampled trilinearly between cell centres.
 /// S is the lower-triangular root of the stress tensor (u' = S q), div_s its divergence d_i S_ij per column
-/// j, rate_j = (C0 eps / 2) (S^-1 S^-T)_jj the relaxation rate of q_j (1/s), gradient the largest |dS/dx|
-/// (1/s).
+/// j (1/s), gradient the largest |dS/dx| (1/s), c0_eps that of the Langevin model (m2/s3).
 struct alignas(64) WindCell
 {
     float u, v, w, gradient;
     float s11, s21, s22, s31;
     float s32, s33, div_s1, div_s2;
-    float div_s3, rate1, rate2, rate3;
+    float div_s3, c0_eps, unused[2];
 };
 
 enum class WindKind : std::uint32_t
@@ -156,6 +160,7 @@ struct World
     Snow snow;
     Wind wind;
     std::vector<Emitter> emitters;  ///< at most 255
+    GrainLaw grains;                ///< of what drift emitters make
     bool has_ground = true;
     float ground_m = 0;  ///< plane; a height field is voxelised into `voxels`
     Surface ground;

@@ -55,7 +55,7 @@ inline void add(WorldHasher& h, const Emitter& e)
 {
     h.add(e.shape);
     h.add(e.a), h.add(e.b), h.add(e.c);
-    h.all(e.radius_m, e.rate_per_s, e.burst);
+    h.all(e.radius_m, e.lift_m_s, e.rate_per_s, e.burst);
     h.add(e.velocity_m_s);
     h.all(e.at_rest_in_air, e.anchor);
 }
@@ -91,10 +91,11 @@ inline std::uint64_t world_hash(const World& w)
     h.add(w.size_m);
     h.all(w.on_leave, w.step_s, w.seed, w.capacity);
     h.all(w.snow.crystal, w.snow.spectrum, w.snow.rate_mm_h, w.snow.fall_speed_spread_m_s,
-          w.snow.fall_speed_m_s, w.snow.weight);
+          w.snow.fall_speed_m_s, w.snow.weight, w.snow.inertia, w.snow.crossing);
     add(h, w.wind);
     h.add(w.emitters.size());
     for (const Emitter& e : w.emitters) add(h, e);
+    h.all(w.grains.shape, w.grains.scale_m);
     h.all(w.has_ground, w.ground_m);
     h.add(w.ground);
     add(h, w.voxels);

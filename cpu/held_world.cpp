@@ -24,7 +24,7 @@ World without_cells(const World& world)
 {
     World w;
     w.size_m = world.size_m, w.on_leave = world.on_leave, w.step_s = world.step_s, w.seed = world.seed;
-    w.capacity = world.capacity, w.snow = world.snow, w.emitters = world.emitters;
+    w.capacity = world.capacity, w.snow = world.snow, w.emitters = world.emitters, w.grains = world.grains;
     w.has_ground = world.has_ground, w.ground_m = world.ground_m, w.ground = world.ground;
     w.voxels = world.voxels, w.surfaces = world.surfaces, w.anchors = world.anchors;
     const Wind& from = world.wind;
@@ -44,7 +44,7 @@ void HeldWorld::Unmap::operator()(void* p) const
     munmap(p, bytes);
 }
 
-HeldWorld::HeldWorld(const World& world) : data_(without_cells(world))
+HeldWorld::HeldWorld(const World& world) : data_(without_cells(world)), near_walls_(steps_reach_walls(world))
 {
     data_.voxels.clearance.resize(data_.voxels.clearance.size() + kGatherOverrun);
     const std::size_t bytes = world.wind.cells.size() * sizeof(WindCell);
@@ -62,7 +62,9 @@ HeldWorld::HeldWorld(const World& world) : data_(without_cells(world))
 
 AdvectJob HeldWorld::job() const
 {
-    return advect_job(data_, static_cast<const WindCell*>(cells_.get()), solids_view(data_));
+    AdvectJob job = advect_job(data_, static_cast<const WindCell*>(cells_.get()), solids_view(data_));
+    job.step.near_walls = near_walls_;
+    return job;
 }
 
 }  // namespace spindrift::cpu

@@ -33,6 +33,7 @@ class HeldWorld
     };
 
     World data_;
+    bool near_walls_;
     std::unique_ptr<void, Unmap> cells_{nullptr, Unmap{}};
 };
 

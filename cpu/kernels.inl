@@ -63,8 +63,8 @@ struct OutOfLineResolver
     EncounterResolver resolve;
 
     OutOfLineResolver(const Surroundings& around, std::uint64_t seed, std::uint32_t step,
-                      std::uint32_t substep, bool turbulent)
-        : resolve{around, seed, step, substep, turbulent}
+                      std::uint32_t substep, bool turbulent, bool inertial)
+        : resolve{around, seed, step, substep, turbulent, inertial}
     {
     }
     __attribute__((noinline, cold)) void operator()(Encounter& f, EncounterTally& tally) const

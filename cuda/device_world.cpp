@@ -62,6 +62,7 @@ DeviceWorld::DeviceWorld(const World& world, const Anchors& anchors)
     solids.voxels.surface = surface_.data();
     solids.surfaces = surfaces_.data();
     job_ = advect_job(world, cells_.data(), solids);
+    job_.step.near_walls = steps_reach_walls(world);
     step_.control = control_.data();
     step_.ledger = {emitters_.data(), emitter_count(), world.step_s,
                     owed_.data(),     waiting_.data(), ends_.data()};

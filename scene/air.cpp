@@ -35,12 +35,12 @@ struct Box
 /// The sky's box where it is then, cut at the ground and the domain; local frame.
 Box sky_box(const Scene& scene, const EmitterSettings& sky, double time_s)
 {
-    Vec3d centre = wide(sky.emitter.a) - scene.domain.min_m;
+    Vec3d centre = sky.a - scene.domain.min_m;
     if (sky.follows == "camera") centre = wide(camera_at(scene, time_s).eye);
     for (const VehicleSettings& vehicle : scene.vehicles)
         if (!sky.follows.empty() && vehicle.name == sky.follows)
             centre = wide(vehicle_at(vehicle, scene.domain, time_s));
-    const Vec3d half = wide(sky.emitter.b) * 0.5, size = scene.domain.max_m - scene.domain.min_m;
+    const Vec3d half = sky.b * 0.5, size = scene.domain.max_m - scene.domain.min_m;
     Box box{centre - half, centre + half};
     const double floor =
         scene.ground.kind == GroundKind::none ? 0 : scene.ground.height_m - scene.domain.min_m.z;

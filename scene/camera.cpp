@@ -74,10 +74,9 @@ View camera_at(const Scene& scene, double time_s)
 Vec3f vehicle_at(const VehicleSettings& vehicle, const DomainSettings& domain, double time_s)
 {
     if (vehicle.path.keys.empty()) return narrow(Vec3d{} - domain.min_m);
-    const auto wide = [](const Vec3f& v) { return Vec3d{v.x, v.y, v.z}; };
     return at_time(vehicle.path.keys, time_s,
-                   [&](const Anchor::Key& a, const Anchor::Key& b, double share)
-                   { return narrow(mix(wide(a.position_m), wide(b.position_m), share) - domain.min_m); });
+                   [&](const VehicleSettings::Key& a, const VehicleSettings::Key& b, double share)
+                   { return narrow(mix(a.position_m, b.position_m, share) - domain.min_m); });
 }
 
 }  // namespace spindrift::scene

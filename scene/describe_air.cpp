@@ -52,6 +52,16 @@ void describe_snow(Section& section, Snow& snow)
     section.number(
         {.name = "weight", .about = "real flakes that one drawn flake stands for, wherever light is counted"},
         {.min = 0, .max = 1e12, .above_min = true}, snow.weight);
+    section.flag(
+        {.name = "inertia",
+         .about = "velocities follow the air within fall speed / g instead of at once: for heavy flakes "
+                  "and gusts shorter than that"},
+        snow.inertia);
+    section.number(
+        {.name = "crossing",
+         .about = "beta of crossing trajectories: how soon falling flakes leave their eddies; 0: they "
+                  "stay in them; 1 to 2 was measured"},
+        {.min = 0, .max = 10}, snow.crossing);
 }
 
 bool solved(const WindSettings& wind)

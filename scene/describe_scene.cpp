@@ -41,6 +41,9 @@ void describe_domain(Section& section, DomainSettings& domain)
     section.require(least >= 0.01, "max_m",
                     "is not above min_m in x, y and z (a domain without inside holds no flake)",
                     "use max_m at least 0.01 above min_m on each axis");
+    section.require(std::max({size.x, size.y, size.z}) <= kLargestDomain, "max_m",
+                    "is too far from min_m (single precision resolves no better than 8 mm at the far end)",
+                    "use at most 100000 m along each axis");
     section.choice(
         {.name = "on_leave",
          .about = "flakes that cross the border: are gone, are made anew by their emitter, or come in again "
@@ -82,7 +85,7 @@ void describe_vehicle(Section& section, std::vector<VehicleSettings>& vehicles)
     section.require(std::none_of(vehicles.begin(), vehicles.end(), same), "name",
                     "names a second vehicle (references would be ambiguous)", "use each name once");
     describe_path(section, "where it is, piecewise linear in time, held at both ends", vehicle.path.keys,
-                  [](Section& key_section, Anchor::Key& key)
+                  [](Section& key_section, VehicleSettings::Key& key)
                   {
                       key_section.triple(
                           {.name = "position_m", .about = "its place, world frame", .required = true},

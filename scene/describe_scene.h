@@ -25,7 +25,10 @@ void describe_exposure(Section& section, RenderSettings& render);
 
 /// Coordinates in the world frame (m).
 inline constexpr Range kCoordinate{
-    .min = -1e5, .max = 1e5, .why = "single precision resolves no better than 8 mm beyond 100 km"};
+    .min = -1e8, .max = 1e8, .why = "no place on Earth is farther from an origin"};
+
+/// Longest edge of a domain, m: places in it are single precision from its lower corner.
+inline constexpr double kLargestDomain = 1e5;
 
 /// Bytes that one flake takes: state and draw list (core/flake.h).
 inline constexpr double kBytesPerFlake = kStateBytesPerFlake + kDrawListBytesPerFlake;

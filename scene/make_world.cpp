@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/turbulence.h"
+#include "scene/drift.h"
 #include "scene/height_field.h"
 #include "scene/project_wind.h"
 #include "scene/voxelise.h"
@@ -58,7 +59,10 @@ class Builder
         if (scene_.wind.source == WindSource::file) read_winds();
         fill_solids();
         set_wind();
-        for (const EmitterSettings& settings : scene_.emitters) add_emitter(settings);
+        // what drifts comes last (core/world.h)
+        for (const bool drifts : {false, true})
+            for (const EmitterSettings& settings : scene_.emitters)
+                if ((settings.emitter.shape == EmitterShape::drift) == drifts) add_emitter(settings);
         return std::move(world_);
     }
 
@@ -267,13 +271,12 @@ class Builder
     void add_emitter(const EmitterSettings& settings)
     {
         Emitter emitter = settings.emitter;
-        const auto to_local = [&](Vec3f& p) { p = narrow(widen(p) - scene_.domain.min_m); };
-        to_local(emitter.a);
-        if (emitter.shape != EmitterShape::sky)  // a sky's b is its size
-        {
-            to_local(emitter.b);
-            to_local(emitter.c);
-        }
+        const auto local = [&](const Vec3d& p) { return narrow(p - scene_.domain.min_m); };
+        emitter.a = local(settings.a);
+        emitter.b = emitter.shape == EmitterShape::sky ? narrow(settings.b) : local(settings.b);
+        emitter.c = local(settings.c);
+        if (emitter.shape == EmitterShape::drift)
+            world_.grains = set_drift(world_, settings.threshold_m_s, world_.emitters.size() + 1, emitter);
         if (!settings.follows.empty()) emitter.anchor = anchor_index(settings.follows);
         world_.emitters.push_back(emitter);
     }
@@ -295,8 +298,8 @@ class Builder
                                               [&](const VehicleSettings& v) { return v.name == followed; });
             if (vehicle == scene_.vehicles.end())
                 throw Error(fmt::format("a sky follows '{}', which is not a vehicle", followed));
-            for (const Anchor::Key& key : vehicle->path.keys)
-                anchor.keys.push_back({key.time_s, narrow(widen(key.position_m) - scene_.domain.min_m)});
+            for (const VehicleSettings::Key& key : vehicle->path.keys)
+                anchor.keys.push_back({key.time_s, narrow(key.position_m - scene_.domain.min_m)});
         }
         anchor_names_.push_back(followed);
         world_.anchors.push_back(std::move(anchor));

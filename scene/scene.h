@@ -127,8 +127,10 @@ struct WindSettings
 
 struct EmitterSettings
 {
-    Emitter emitter;      ///< positions still in the world frame
-    std::string follows;  ///< sky: "" fixed, "camera", or the name of a vehicle
+    Emitter emitter;              ///< its a, b and c are not set yet
+    Vec3d a{}, b{}, c{};          ///< world frame; a sky's b is its size
+    double threshold_m_s = 0.25;  ///< drift: friction velocity at which snow begins to move
+    std::string follows;          ///< sky: "" fixed, "camera", or the name of a vehicle
 };
 
 enum class GroundKind
@@ -220,8 +222,17 @@ struct CameraSettings
 
 struct VehicleSettings
 {
+    struct Key
+    {
+        double time_s = 0;
+        Vec3d position_m{};
+    };
+    struct Path
+    {
+        std::vector<Key> keys;  ///< ascending time, at least one; world frame
+    };
     std::string name;
-    Anchor path;  ///< world frame
+    Path path;
 };
 
 enum class Blending

@@ -82,10 +82,7 @@ class Records
         const Root& s = roots_[i];
         cell.s11 = narrow(s[0]), cell.s21 = narrow(s[1]), cell.s22 = narrow(s[2]);
         cell.s31 = narrow(s[3]), cell.s32 = narrow(s[4]), cell.s33 = narrow(s[5]);
-        const double c0_eps = flow_.c0_eps[source_[i]];
-        const Vec3<double> rate =
-            relaxation_rates(StressRoot<double>{s[0], s[1], s[2], s[3], s[4], s[5]}, c0_eps);
-        cell.rate1 = narrow(rate.x), cell.rate2 = narrow(rate.y), cell.rate3 = narrow(rate.z);
+        cell.c0_eps = std::max(narrow(static_cast<double>(flow_.c0_eps[source_[i]])), 0.0F);
         const Root dx = slope(i, x, flow_.size.nx, 1, flow_.cell_m.x);
         const Root dy = slope(i, y, flow_.size.ny, static_cast<std::size_t>(flow_.size.nx), flow_.cell_m.y);
         const Root dz =

@@ -181,7 +181,7 @@ TEST(Hostile, NothingIsEverNotANumber)
             for (std::size_t i = 0; i < w.wind.cells.size(); ++i)
             {
                 if (i % 3 == 0) w.wind.cells[i] = WindCell{};
-                if (i % 7 == 0) w.wind.cells[i].rate3 = 1e9F;
+                if (i % 7 == 0) w.wind.cells[i].c0_eps = 1e9F;
                 if (i % 11 == 0) w.wind.cells[i].gradient = 1e6F;
             }
             TestRun run(w);

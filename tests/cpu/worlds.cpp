@@ -58,7 +58,7 @@ WindCell isotropic(float sigma, float rate)
 {
     WindCell c{};
     c.s11 = c.s22 = c.s33 = sigma;
-    c.rate1 = c.rate2 = c.rate3 = rate;
+    c.c0_eps = 2 * sigma * sigma * rate;
     return c;
 }
 
@@ -74,7 +74,7 @@ WindCell gusty(float x, float y, float z)
     c.s11 = 1.2F + 0.3F * wave, c.s21 = 0.2F, c.s22 = 0.9F, c.s31 = -0.3F, c.s32 = 0.1F,
     c.s33 = 0.6F + 0.02F * z;
     c.div_s1 = 0.12F * std::cos(0.4F * x), c.div_s2 = 0.01F, c.div_s3 = 0.02F;
-    c.rate1 = 0.5F, c.rate2 = 0.7F, c.rate3 = 3.0F / (0.5F + z);
+    c.c0_eps = 2.0F / (0.5F + z);
     return c;
 }
 

@@ -41,7 +41,7 @@ void check(const spindrift::scene::Scene& scene)
     for (const auto& settings : scene.emitters)
     {
         const spindrift::Emitter& emitter = settings.emitter;
-        demand(finite(emitter.a) && finite(emitter.b) && finite(emitter.c) &&
+        demand(finite(settings.a) && finite(settings.b) && finite(settings.c) &&
                std::isfinite(emitter.radius_m));
         demand(emitter.burst <= scene.capacity && std::isfinite(emitter.rate_per_s));
     }

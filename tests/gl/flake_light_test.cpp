@@ -142,7 +142,7 @@ TEST_F(FlakeLight, LightsOfModelsAndVehiclesShineToo)
     geometry.model_lights.clear();
     scene::VehicleSettings plow;
     plow.name = "plow";
-    plow.path.keys.push_back({0, {0, static_cast<float>(depth_m), -2}});
+    plow.path.keys.push_back({0, {0, depth_m, -2}});
     scene.vehicles.push_back(plow);
     scene.lights = {point_light({0, 0, 3}, 4 * kPi)};
     scene.lights[0].vehicle = "plow";

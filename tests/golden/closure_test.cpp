@@ -42,8 +42,8 @@ SmallScene snowfall()
     small.view.far_m = 400;
     scene::EmitterSettings sky;
     sky.emitter.shape = EmitterShape::sky;
-    sky.emitter.a = {20, 20, 10};
-    sky.emitter.b = {40, 40, 20};
+    sky.a = {20, 20, 10};
+    sky.b = {40, 40, 20};
     sky.emitter.burst = kFlakes;
     small.scene.emitters.push_back(sky);
     return small;

@@ -157,8 +157,8 @@ void thicken(SmallScene& small)
 {
     scene::EmitterSettings sky;
     sky.emitter.shape = EmitterShape::sky;
-    sky.emitter.a = {20, 10, 6};
-    sky.emitter.b = {24, 20, 12};
+    sky.a = {20, 10, 6};
+    sky.b = {24, 20, 12};
     sky.emitter.burst = 2000;
     small.scene.emitters.push_back(sky);
     small.scene.air.source = scene::AirSource::visibility;

@@ -92,16 +92,16 @@ TEST(ReadScene, EveryEmitterShape)
     for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(shape(i), static_cast<EmitterShape>(i));
     EXPECT_EQ(scene.emitters[0].emitter.rate_per_s, 0.3);
     EXPECT_TRUE(scene.emitters[0].emitter.at_rest_in_air);
-    EXPECT_EQ(scene.emitters[1].emitter.b.z, 6);
-    const Emitter& plane = scene.emitters[4].emitter;
+    EXPECT_EQ(scene.emitters[1].b.z, 6);
+    const EmitterSettings& plane = scene.emitters[4];
     EXPECT_EQ(plane.b.x, 9);
     EXPECT_EQ(plane.b.z, 1);
     EXPECT_EQ(plane.c.x, 1);
     EXPECT_EQ(plane.c.z, 9);
-    EXPECT_FALSE(plane.at_rest_in_air);
-    EXPECT_EQ(plane.velocity_m_s.z, -1);
+    EXPECT_FALSE(plane.emitter.at_rest_in_air);
+    EXPECT_EQ(plane.emitter.velocity_m_s.z, -1);
     EXPECT_EQ(scene.emitters[6].follows, "camera");
-    EXPECT_EQ(scene.emitters[6].emitter.b.x, 30);
+    EXPECT_EQ(scene.emitters[6].b.x, 30);
     EXPECT_EQ(scene.emitters[6].emitter.burst, 7U);
 }
 
@@ -260,8 +260,8 @@ TEST(ReadScene, CanyonIsTheTestOfTheAncestors)
     EXPECT_EQ(scene.voxel_m, 1);
     EXPECT_EQ(scene.wind.cell_m, 1);
     EXPECT_EQ(scene.wind.friction_velocity_m_s, 0.084);
-    const Emitter& source = scene.emitters.at(0).emitter;
-    EXPECT_EQ(source.shape, EmitterShape::plane);
+    const EmitterSettings& source = scene.emitters.at(0);
+    EXPECT_EQ(source.emitter.shape, EmitterShape::plane);
     EXPECT_EQ(source.a.y, 75);
     EXPECT_EQ(source.b.x - source.a.x, 18);
     EXPECT_EQ(source.c.z - source.a.z, 8);

@@ -128,15 +128,15 @@ TEST(SceneErrors, WrongTypes)
         {changed("[10, 10, 10]", "[10, 10]"),
          "s.toml:3: domain.max_m = [10, 10] is a list of 2, not of 3 (upper corner); use three numbers [a, "
          "b, c], each "
-         "-100000 to 100000"},
+         "-100000000 to 100000000"},
         {changed("[10, 10, 10]", "[10, \"high\", 10]"),
          "s.toml:3: domain.max_m = [10, \"high\", 10] is a text, not a number (upper corner); use three "
          "numbers [a, b, c], "
-         "each -100000 to 100000"},
+         "each -100000000 to 100000000"},
         {changed("[10, 10, 10]", "10"),
          "s.toml:3: domain.max_m = 10 is a number, not a list (upper corner); use three numbers [a, b, c], "
-         "each -100000 to "
-         "100000"},
+         "each -100000000 to "
+         "100000000"},
         {changed("1000", "10.5"),
          "s.toml:5: particles.capacity = 10.5 is not a whole number (room for so many drawn flakes at once, "
          "fixed for the "
@@ -149,8 +149,8 @@ TEST(SceneErrors, WrongTypes)
          "s.toml:9: render = [{...}] is a list, not a table (the pictures); write [render]"},
         {with("[[box]]\nmin_m = 3\n"),
          "s.toml:10: box[1].min_m = 3 is a number, not a list (lower corner); use three numbers [a, b, c], "
-         "each -100000 to "
-         "100000"},
+         "each -100000000 to "
+         "100000000"},
     });
 }
 
@@ -248,7 +248,7 @@ TEST(SceneErrors, DomainWithoutInside)
         {changed("[10, 10, 10]", "[10, 1e-9, 10]"), "s.toml:3: domain.max_m = [10, 1e-09, 10]" + tail},
         {changed("[10, 10, 10]", "[10, nan, 10]"),
          "s.toml:3: domain.max_m = [10, nan, 10] is not a number (upper corner); use "
-         "three numbers [a, b, c], each -100000 to 100000"},
+         "three numbers [a, b, c], each -100000000 to 100000000"},
     });
 }
 
@@ -257,7 +257,7 @@ TEST(SceneErrors, MissingKeysAndTables)
     expect_errors({
         {changed("max_m = [10, 10, 10]\n", ""),
          "s.toml:1: domain.max_m is missing (upper corner); use three numbers [a, b, c], "
-         "each -100000 to 100000"},
+         "each -100000000 to 100000000"},
         {"[scene]\n", "s.toml:1: domain is missing (where flakes live); write [domain]"},
         {with("[wind]\nsource = \"uniform\"\n"),
          "s.toml:9: wind.speed_m_s is missing (speed along the ground, at reference_height_m in a log wind); "
@@ -273,7 +273,7 @@ TEST(SceneErrors, MissingKeysAndTables)
         {with("[[emitter]]\nburst = 3\n"),
          "s.toml:9: emitter[1].shape is missing (where flakes begin, uniformly); use point, line, "
          "sphere-surface, "
-         "sphere-volume, plane, box or sky"},
+         "sphere-volume, plane, box, sky or drift"},
         {with("[[vehicle]]\nname = \"plow\"\n"),
          "s.toml:9: vehicle[1].key is missing (where it is, piecewise linear in time, held at both ends); "
          "write "

@@ -90,14 +90,7 @@ TEST(Realizable, EveryStressGivesFiniteNumbers)
         if (trial % 11 == 0) t.xy = t.xz = t.yz = 0;
         if (trial % 13 == 0) t.yy = t.zz = t.yz = 0;
         const StressRoot<double> s = stress_root(realizable(t));
-        const Vec3d rate = relaxation_rates(s, trial % 5 == 0 ? 0.0 : size);
-        for (const double v : {s.s11, s.s21, s.s22, s.s31, s.s32, s.s33, rate.x, rate.y, rate.z})
-            ASSERT_TRUE(std::isfinite(v));
-        for (const double v : {rate.x, rate.y, rate.z})
-        {
-            ASSERT_GE(v, 0);
-            ASSERT_LE(v, kLargestRatePerS);
-        }
+        for (const double v : {s.s11, s.s21, s.s22, s.s31, s.s32, s.s33}) ASSERT_TRUE(std::isfinite(v));
         const Stress<float> narrow{static_cast<float>(t.xx), static_cast<float>(t.xy),
                                    static_cast<float>(t.xz), static_cast<float>(t.yy),
                                    static_cast<float>(t.yz), static_cast<float>(t.zz)};
@@ -112,19 +105,6 @@ TEST(Realizable, StressWithoutPositivePartIsCalm)
     expect_near(realizable(Tensor{}), Tensor{}, 0);
     const StressRoot<double> s = stress_root(Tensor{});
     EXPECT_EQ(s.s11, 0);
-    EXPECT_EQ(relaxation_rates(s, 1.0).x, kLargestRatePerS);
-}
-
-TEST(RelaxationRates, AreTheDiagonalOfTheInverse)
-{
-    // diagonal stress: C0 eps / (2 sigma^2)
-    const Vec3d rate = relaxation_rates(stress_root(Tensor{4, 0, 0, 1, 0, 0.25}), 2.0);
-    EXPECT_DOUBLE_EQ(rate.x, 0.25);
-    EXPECT_DOUBLE_EQ(rate.y, 1);
-    EXPECT_DOUBLE_EQ(rate.z, 4);
-    // with shear stress: (S^-1 S^-T)_33 = 1/s33^2 + (s31/(s11 s33))^2
-    const StressRoot<double> s = stress_root(Tensor{6.25, 0, -1, 4, 0, 1.69});
-    EXPECT_NEAR(relaxation_rates(s, 2.0).z, (1 + s.s31 * s.s31 / (s.s11 * s.s11)) / (s.s33 * s.s33), 1e-12);
 }
 
 TEST(NeutralNormalStress, TurnsWithTheWind)
