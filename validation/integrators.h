@@ -144,7 +144,7 @@ struct Whitened
         for (int k = 0; k < n; ++k)
         {
             if (k > 0) air = wind.air(x);
-            q = relax(q, air.rate, h, noise(k));
+            q = relax(air, q, air.c0_eps * (h * R(0.25)), noise(k));
             const Air<R> middle = wind.air(x + (air.mean + turbulent_velocity(air, q)) * half);
             const Vec3<R> q_half = q + air.div_s * half;
             q = q + middle.div_s * h;
