@@ -33,6 +33,7 @@ class TilePass
         Vec3f ambient;  ///< of flakes
         SplatAir air;
         double time_s;
+        const Vec3f* velocities;  ///< with a shutter time
     };
     /// The light alone, into picture.linear.
     void blend(Splatter& splatter, const Frame& frame, const Picture& picture);
@@ -50,6 +51,7 @@ class TilePass
     scene::RenderSettings settings_;
     FlakeSizes sizes_;
     float real_flakes_;
+    float extinction_per_m_;
     const FlakeBuffers& buffers_;
     CrystalTexels crystals_;  ///< into texels_
     std::vector<std::uint8_t> texels_;
