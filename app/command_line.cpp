@@ -214,6 +214,17 @@ void add_scene_options(CLI::App& command, scene::SceneOverrides& scene)
         ->group(group);
     add_sort_passes(command, scene, group);
     command
+        .add_option("--shutter", scene.shutter_s,
+                    "Seconds for which flakes are seen while they fly, as streaks; 0: at an instant")
+        ->type_name("S")
+        ->group(group);
+    command
+        .add_option("--blending", scene.blending,
+                    "How flakes cover each other: over (sorted), additive, weighted, stochastic or opaque")
+        ->type_name("B")
+        ->check(CLI::IsMember({"over", "additive", "weighted", "stochastic", "opaque"}))
+        ->group(group);
+    command
         .add_option(
             "--flake-path", scene.flake_path,
             "How blended flakes are drawn: raster, tiles (by the processor), or auto: tiles on software GL")

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "bench/drawn_row.h"
 #include "bench/drawn_scene.h"
 #include "image/compare.h"
 #include "measure/timing.h"
@@ -124,23 +125,7 @@ bool register_rows()
     constexpr std::array pictures{Row{"town", 320, 180, 4'000}, Row{"canyon", 320, 180, 4'000},
                                   Row{"calm", 320, 180, 4'000}};
     const auto add = [](const char* what, const Row& row, auto body)
-    {
-        benchmark::RegisterBenchmark(row_name(what, row).c_str(),
-                                     [=](benchmark::State& state)
-                                     {
-                                         try
-                                         {
-                                             body(state, row);
-                                         }
-                                         catch (const std::exception& error)
-                                         {
-                                             state.SkipWithError(error.what());
-                                         }
-                                     })
-            ->UseManualTime()
-            ->Iterations(1)
-            ->Unit(benchmark::kMillisecond);
-    };
+    { add_drawn_row(row_name(what, row), [=](benchmark::State& state) { body(state, row); }); };
     for (const Row& row : frames) add("frame", row, whole_frame);
     for (const Row& row : pictures) add("picture", row, picture);
     return true;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/drawn_row.h"
 #include "bench/drawn_scene.h"
 #include "measure/timing.h"
 
@@ -141,21 +142,8 @@ bool register_rows()
         for (const int lamps : {1, 4, 16, 64})
         {
             const Row row{lamps, path, air};
-            benchmark::RegisterBenchmark(fmt::format("lamps-{}/{}/{}/1M", lamps, path, air).c_str(),
-                                         [=](benchmark::State& state)
-                                         {
-                                             try
-                                             {
-                                                 under_lamps(state, row);
-                                             }
-                                             catch (const std::exception& error)
-                                             {
-                                                 state.SkipWithError(error.what());
-                                             }
-                                         })
-                ->UseManualTime()
-                ->Iterations(1)
-                ->Unit(benchmark::kMillisecond);
+            add_drawn_row(fmt::format("lamps-{}/{}/{}/1M", lamps, path, air),
+                          [row](benchmark::State& state) { under_lamps(state, row); });
         }
     return true;
 }

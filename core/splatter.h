@@ -36,6 +36,17 @@ struct SplatAir
     FlakeVolume<float> volume;
 };
 
+/// How sprites that overlap make a pixel; docs/drawing.md "Blending".
+enum class SplatBlending
+{
+    over,
+    additive,
+    weighted,
+    stochastic,
+};
+
+inline constexpr int kMostSamples = 16;  ///< of a pixel, stochastic
+
 /// What sprites are blended with, the same for a whole frame; docs/drawing.md says what it means.
 struct SplatJob
 {
@@ -45,7 +56,9 @@ struct SplatJob
     FlakeSizes sizes;
     float flake_scale = 1, flake_opacity = 1, real_flakes = 1;
     bool plain_discs = false;
-    bool additive = false;
+    SplatBlending blending = SplatBlending::over;
+    int samples = 8;             ///< stochastic: of a pixel, 1 to kMostSamples
+    float extinction_per_m = 0;  ///< weighted: of the flakes
     Vec3f ambient{};
     SplatAir air;
     const Lamp<float>* lamps = nullptr;
@@ -54,6 +67,8 @@ struct SplatJob
     LampClusters clusters;  ///< which of the lamps count where
     CrystalTexels crystals;
     FlakeView flakes{};
+    float shutter_s = 0;                ///< how long it is open; 0: flakes are points in time
+    const Vec3f* velocities = nullptr;  ///< by place in the draw list, m/s, local frame; with a shutter time
     const std::uint64_t* pairs = nullptr;  ///< of the draw list, in the order of blending
     std::size_t count = 0;
 };

@@ -86,4 +86,28 @@ SPINDRIFT_HD R soft_edge(const R& scene_z, const R& z, const R& per_m)
     return clamp((scene_z - z) * per_m, number<R>(0), number<R>(1));
 }
 
+/// Share of a flake in what all flakes of a pixel cover, where they are not sorted: what evenly spread flakes
+/// let through up to there, so that the mean over many is that of sorted ones.
+template <class R>
+SPINDRIFT_HD R unsorted_weight(const R& extinction_per_m, const R& distance_m)
+{
+    constexpr double kLog2E = 1.44269504088896340736;
+    constexpr double kLeast = -30;  // of its logarithm: sums keep their accuracy
+    return exp2_inside(max(extinction_per_m * distance_m * number<R>(-kLog2E), number<R>(kLeast)));
+}
+
+/// In (0, 1), for a flake (32 random bits of its own) and a pixel, for ever the same. A sample s of n is
+/// covered by the flake if the fraction of this plus s / n is below its alpha: so many are as alpha asks for,
+/// and which ones is independent from flake to flake.
+template <class R>
+SPINDRIFT_HD R grain(const UIntOf<R>& flake, const UIntOf<R>& x, const UIntOf<R>& y)
+{
+    using UInt = UIntOf<R>;
+    UInt h = flake + x * UInt(0x9E3779B9U) + y * UInt(0x85EBCA6BU);
+    h = (h ^ (h >> 16)) * UInt(0x7FEB352DU);
+    h = (h ^ (h >> 15)) * UInt(0x846CA68BU);
+    h = h ^ (h >> 16);
+    return (to_real<R>(as_int(h >> 8)) + number<R>(0.5)) * number<R>(0x1p-24);
+}
+
 }  // namespace spindrift

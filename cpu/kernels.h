@@ -25,8 +25,14 @@ struct alignas(64) PlacedSprite
     float red, green, blue;      ///< radiance; of a detailed sprite the lamps' part alone
     float right, up, to_viewer;  ///< unit vector to the lamps; only detailed sprites have it and the rest
     float cosine, sine;          ///< of the angle
-    std::uint32_t shape;
-    std::uint32_t level;  ///< of the mask, plus 1; 0: not a detailed sprite
+    std::uint32_t hash;          ///< random bits; modulo their number the shape of its crystal
+    std::uint32_t level;         ///< of the mask, plus 1; 0: not a detailed sprite
+};
+
+/// The way of a sprite while the shutter is open, in radii (core/streak.h).
+struct PlacedStreak
+{
+    float along_x, along_y, half, even;
 };
 
 /// Tiles that a sprite touches, [first, last] each way; none if first > last.
@@ -52,14 +58,15 @@ struct KernelTable
 
     /// Places the flakes [first, last) of the job's draw list.
     /// `ambients`: the light of detailed sprites that the imposter does not shade; only in thick air.
+    /// `streaks`: only with a shutter time.
     void (*place_sprites)(const SplatJob& job, std::size_t first, std::size_t last, PlacedSprite* sprites,
-                          TileBox* boxes, Vec3f* ambients);
+                          TileBox* boxes, Vec3f* ambients, PlacedStreak* streaks);
 
     /// Blends sprites[which[0]], sprites[which[1]] … into the tile whose lower left pixel is (x0, y0), and
     /// develops it.
     void (*blend_tile)(const SplatJob& job, const SplatPicture& picture, int x0, int y0,
-                       const PlacedSprite* sprites, const Vec3f* ambients, const std::uint32_t* which,
-                       std::size_t count);
+                       const PlacedSprite* sprites, const Vec3f* ambients, const PlacedStreak* streaks,
+                       const std::uint32_t* which, std::size_t count);
 };
 
 extern const KernelTable kScalarKernels;

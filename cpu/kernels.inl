@@ -15,6 +15,7 @@ namespace
 constexpr std::size_t kWidth = NumberTraits<Real>::width;
 
 // The packs' own would hide them from scalars.
+using spindrift::as_uint;
 using spindrift::gather;
 using spindrift::gather_bytes;
 

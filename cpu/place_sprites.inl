@@ -3,6 +3,7 @@
 
 #include "core/airlight.h"
 #include "core/sprite.h"
+#include "core/streak.h"
 
 namespace spindrift::cpu
 {
@@ -126,7 +127,7 @@ SPINDRIFT_HD SeenLight see_through_air(const SplatJob& job, const PackLamps& lam
                              in_every_lane(job.view.eye), way, dot(way, forward));
     const Real clear = exp(-path.of_fog(distance_m));
     // What is added covers nothing: the glow of the air is in the picture already.
-    if (job.additive) return {clear, ambient * clear};
+    if (job.blending == SplatBlending::additive) return {clear, ambient * clear};
     Vec3<Real> even = ambient, glow{Real(0), Real(0), Real(0)};
     lamps.each(
         [&](std::size_t i)
@@ -206,16 +207,58 @@ SPINDRIFT_HD Projected project(const SplatJob& job, const std::int32_t* slots)
     return out;
 }
 
+/// What is written of each flake, and what is known of it, by place in the draw list from the first of a
+/// call.
+struct Placed
+{
+    PlacedSprite* sprites;
+    TileBox* boxes;
+    Vec3f* ambients;
+    PlacedStreak* streaks;
+    const Vec3f* velocities;
+};
+
+/// How far sprites reach on the picture from their centre, px.
+struct Reach
+{
+    Real x, y;
+};
+
+/// Streaks of a pack, written out. `opacity`: at the centre of the flake at rest, before the weight. Returns
+/// how far sprites reach with them.
+SPINDRIFT_HD Reach write_streaks(const SplatJob& job, const PackOfFlakes& which, const Projected& at,
+                                 const Real& radius_px, const Real& opacity, const Placed& out)
+{
+    float right[kWidth], up[kWidth], forward[kWidth];
+    for (std::size_t l = 0; l < kWidth; ++l)
+    {
+        const Vec3f& v = out.velocities[which.at[l]];
+        right[l] = dot(v, job.view.right), up[l] = dot(v, job.view.up), forward[l] = dot(v, job.view.forward);
+    }
+    const Vec3<Real> from_eye{along(at.from_eye, job.view.right), along(at.from_eye, job.view.up), at.z};
+    Real x_px, y_px;
+    streak_way(from_eye, Vec3<Real>{load<Real>(right), load<Real>(up), load<Real>(forward)}, at.px_per_m,
+               Real(job.shutter_s), x_px, y_px);
+    Streak<Real> streak = streak_of(x_px, y_px, radius_px, Real(job.largest_px));
+    streak.even = even_share(opacity, Real(job.real_flakes));
+    const Lanes xs(streak.along_x), ys(streak.along_y), halves(streak.half), evens(streak.even);
+    for (std::size_t l = 0; l < which.n; ++l)
+        out.streaks[which.at[l]] = {xs.v[l], ys.v[l], halves.v[l], evens.v[l]};
+    const Real way = streak.half * radius_px;
+    return {fma(abs(streak.along_x), way, radius_px), fma(abs(streak.along_y), way, radius_px)};
+}
+
 /// First and last tile of each lane, as TileBox has them.
-SPINDRIFT_HD void write_boxes(const Real& x, const Real& y, const Real& r, MaskOf<Real> drawn,
+SPINDRIFT_HD void write_boxes(const Real& x, const Real& y, const Reach& r, MaskOf<Real> drawn,
                               const View& view, const PackOfFlakes& which, TileBox* boxes)
 {
     const Real half(0.5F), zero(0), per_tile(1.0F / kTilePx);
     const Real most_x(static_cast<float>(view.width_px - 1)), most_y(static_cast<float>(view.height_px - 1));
     // Pixel centres within r, rounded outwards by a thousandth of a pixel.
-    const Real reach = r + Real(1e-3F);
-    const Real low_x = max(-floor(reach + half - x), zero), low_y = max(-floor(reach + half - y), zero);
-    const Real high_x = min(floor(x + reach - half), most_x), high_y = min(floor(y + reach - half), most_y);
+    const Real reach_x = r.x + Real(1e-3F), reach_y = r.y + Real(1e-3F);
+    const Real low_x = max(-floor(reach_x + half - x), zero), low_y = max(-floor(reach_y + half - y), zero);
+    const Real high_x = min(floor(x + reach_x - half), most_x);
+    const Real high_y = min(floor(y + reach_y - half), most_y);
     const auto touches = drawn && low_x <= high_x && low_y <= high_y;
     const auto tile = [&](Real px) { return truncate_to_int(select(touches, px, zero) * per_tile); };
     std::int32_t first_x[kWidth], first_y[kWidth], last_x[kWidth], last_y[kWidth];
@@ -256,8 +299,7 @@ SPINDRIFT_HD void write_detail(const SplatJob& job, UIntOf<Real> base, const Rea
     }
 }
 
-SPINDRIFT_HD void place_pack(const SplatJob& job, const PackOfFlakes& which, PlacedSprite* sprites,
-                             TileBox* boxes, Vec3f* ambients)
+SPINDRIFT_HD void place_pack(const SplatJob& job, const PackOfFlakes& which, const Placed& out)
 {
     const View& view = job.view;
     const Projected at = project(job, which.slots);
@@ -271,8 +313,6 @@ SPINDRIFT_HD void place_pack(const SplatJob& job, const PackOfFlakes& which, Pla
         sprite_size(radius_m, z, Real(focal_px(view)), Real(job.largest_px), Real(view.near_m));
     Real opacity = size.opacity;
     if (job.air.thick) opacity = opacity * kept_of_tiny(Real(2) * radius_m * at.px_per_m);
-    write_boxes(at.x, at.y, size.radius_px, drawn && opacity > Real(0), view, which, boxes);
-
     std::int32_t clusters[kWidth] = {};
     if (job.clusters.words > 0) store(clusters, cluster_of(job.clusters.grid, at.x, at.y, z));
     const Real distance_m = sqrt(dot(at.from_eye, at.from_eye));
@@ -287,28 +327,34 @@ SPINDRIFT_HD void place_pack(const SplatJob& job, const PackOfFlakes& which, Pla
 
     const UIntOf<Real> base = flake_base(job.sizes.seed, id);
     const LaneWords shapes(flake_trait(base, Trait::shape));
+    alignas(64) float means[kWidth];
+    const std::uint32_t large = mask_bits(detailed);
+    for (std::size_t l = 0; l < kWidth; ++l)
+        means[l] = job.plain_discs ? 1 : job.crystals.means[shapes.v[l] % job.crystals.shapes];
+    opacity = opacity * Real(job.plain_discs ? 1 : job.flake_opacity);
+    const Real mean_opacity = opacity * load<Real>(means);
+    Reach reach{size.radius_px, size.radius_px};
+    if (job.shutter_s > 0) reach = write_streaks(job, which, at, size.radius_px, mean_opacity, out);
+    write_boxes(at.x, at.y, reach, drawn && opacity > Real(0), view, which, out.boxes);
     const Lanes xs(at.x), ys(at.y), rs(size.radius_px), zs(z);
-    const Lanes opacities(opacity * Real(job.plain_discs ? 1 : job.flake_opacity));
+    // Detailed sprites look up their mask pixel by pixel.
+    const Lanes opacities(select(detailed, opacity, mean_opacity));
     const Lanes fades(Real(1) / max(radius_m, Real(static_cast<float>(kThinnestFade_m))));
     const Lanes reds(whole(lit.lamps.x, seen.ambient.x)), greens(whole(lit.lamps.y, seen.ambient.y)),
         blues(whole(lit.lamps.z, seen.ambient.z));
-    const std::uint32_t large = mask_bits(detailed);
     for (std::size_t l = 0; l < which.n; ++l)
-    {
-        const std::uint32_t shape = shapes.v[l] % job.crystals.shapes;
-        const float mean = (large >> l & 1U) != 0 || job.plain_discs ? 1 : job.crystals.means[shape];
-        sprites[which.at[l]] = {xs.v[l],    ys.v[l],   rs.v[l],     zs.v[l],    opacities.v[l] * mean,
-                                fades.v[l], reds.v[l], greens.v[l], blues.v[l], 0,
-                                0,          0,         1,           0,          shape,
-                                0};
-    }
+        out.sprites[which.at[l]] = {xs.v[l],    ys.v[l],   rs.v[l],     zs.v[l],    opacities.v[l],
+                                    fades.v[l], reds.v[l], greens.v[l], blues.v[l], 0,
+                                    0,          0,         1,           0,          shapes.v[l],
+                                    0};
     if (large == 0) return;
     if (job.air.thick)
     {
         const Lanes red(seen.ambient.x), green(seen.ambient.y), blue(seen.ambient.z);
-        for (std::size_t l = 0; l < which.n; ++l) ambients[which.at[l]] = {red.v[l], green.v[l], blue.v[l]};
+        for (std::size_t l = 0; l < which.n; ++l)
+            out.ambients[which.at[l]] = {red.v[l], green.v[l], blue.v[l]};
     }
-    write_detail(job, base, size.radius_px, lit.towards, large, which, sprites);
+    write_detail(job, base, size.radius_px, lit.towards, large, which, out.sprites);
 }
 
 /// Most flakes that are put in order at once: what their order takes lies on the stack.
@@ -337,13 +383,16 @@ SPINDRIFT_HD void order_by_cluster(const SplatJob& job, const std::uint64_t* pai
 }
 
 void place_sprites(const SplatJob& job, std::size_t first, std::size_t last, PlacedSprite* sprites,
-                   TileBox* boxes, Vec3f* ambients)
+                   TileBox* boxes, Vec3f* ambients, PlacedStreak* streaks)
 {
     const bool ordered = job.clusters.words > 0;
     for (std::size_t block = first; block < last; block += kOrdered)
     {
         const std::size_t count = last - block < kOrdered ? last - block : kOrdered;
         std::uint16_t order[kOrdered];
+        const bool streaked = job.shutter_s > 0;
+        const Placed out{sprites + block, boxes + block, job.air.thick ? ambients + block : nullptr,
+                         streaked ? streaks + block : nullptr, streaked ? job.velocities + block : nullptr};
         if (ordered) order_by_cluster(job, job.pairs + block, count, order);
         for (std::size_t i = 0; i < count; i += kWidth)
         {
@@ -355,8 +404,7 @@ void place_sprites(const SplatJob& job, std::size_t first, std::size_t last, Pla
                 const std::size_t flake = ordered ? order[at] : at;
                 which.set(l, static_cast<std::uint32_t>(flake), job.pairs[block + flake]);
             }
-            place_pack(job, which, sprites + block, boxes + block,
-                       job.air.thick ? ambients + block : nullptr);
+            place_pack(job, which, out);
         }
     }
 }

@@ -100,13 +100,14 @@ class TileSplatter final : public Splatter
         bins_.resize(picture, job.count);
         if (sprites_.size() < job.count) sprites_.resize(job.count);
         if (job.air.thick && ambients_.size() < job.count) ambients_.resize(job.count);
+        if (job.shutter_s > 0 && streaks_.size() < job.count) streaks_.resize(job.count);
         const std::size_t chunks = chunk_count(job.count);
         parallel_for_each_index(chunks,
                                 [&](std::size_t c)
                                 {
                                     const Chunk chunk(c, job.count);
                                     kernels_.place_sprites(job, chunk.first, chunk.last, sprites_.data(),
-                                                           bins_.boxes(), ambients_.data());
+                                                           bins_.boxes(), ambients_.data(), streaks_.data());
                                     bins_.count(c, job.count);
                                 });
         bins_.sum_up();
@@ -116,8 +117,8 @@ class TileSplatter final : public Splatter
                                 {
                                     const std::span<const std::uint32_t> which = bins_.of(tile);
                                     kernels_.blend_tile(job, picture, bins_.x_px(tile), bins_.y_px(tile),
-                                                        sprites_.data(), ambients_.data(), which.data(),
-                                                        which.size());
+                                                        sprites_.data(), ambients_.data(), streaks_.data(),
+                                                        which.data(), which.size());
                                 });
     }
 
@@ -125,7 +126,8 @@ class TileSplatter final : public Splatter
     Arena arena_;
     TileBins bins_;
     std::vector<PlacedSprite> sprites_;
-    std::vector<Vec3f> ambients_;  ///< filled in thick air only
+    std::vector<Vec3f> ambients_;        ///< filled in thick air only
+    std::vector<PlacedStreak> streaks_;  ///< filled with a shutter time only
 };
 
 }  // namespace

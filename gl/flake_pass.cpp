@@ -20,7 +20,9 @@ using scene::Blending;
 
 constexpr std::array<std::string_view, 2> kFiles{"flake.vert", "flake.frag"};
 constexpr GLint kHasScene = 0;
-constexpr GLint kBlocksUsed = 7;
+constexpr GLint kSamples = 1;
+constexpr GLint kShutter = 2;
+constexpr GLint kBlocksUsed = 8;
 
 void require_vertex_pulling()
 {
@@ -64,6 +66,9 @@ FlakePass::FlakePass(const scene::RenderSettings& settings, double weight, const
     else if (weight != settings.flake_scale * settings.flake_scale)
         defines.emplace_back("WEIGHTED");
     if (settings.blending == Blending::additive) defines.emplace_back("ADDITIVE");
+    if (settings.blending == Blending::weighted) defines.emplace_back("SHARED");
+    if (settings.blending == Blending::stochastic) defines.emplace_back("SAMPLED");
+    if (settings.shutter_s > 0) defines.emplace_back("STREAK");
     if (settings.sprite == scene::Sprite::point) defines.emplace_back("POINT_SPRITE");
     programs_[kPlain] = ByAir(kFiles, defines);
     if (settings.blending == Blending::opaque) return;
@@ -84,14 +89,16 @@ void FlakePass::bind(const FlakeDraw& what) const
     glBindBufferRange(GL_SHADER_STORAGE_BUFFER, kDrawList, buffers_.list_buffer(),
                       what.list.in_scratch ? list_bytes : 0, list_bytes);
     glBindTextureUnit(kSceneDepth, what.scene_depth);
+    if (what.velocities != 0) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kFlakeVelocities, what.velocities);
 }
 
 void FlakePass::set_blending() const
 {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
-    glDepthMask(settings_.blending == Blending::opaque ? GL_TRUE : GL_FALSE);
-    if (settings_.blending == Blending::opaque)
+    const bool covers = settings_.blending == Blending::opaque || settings_.blending == Blending::stochastic;
+    glDepthMask(covers ? GL_TRUE : GL_FALSE);
+    if (covers)
     {
         glDisable(GL_BLEND);
         return;
@@ -102,6 +109,9 @@ void FlakePass::set_blending() const
         glBlendFuncSeparate(GL_ONE, GL_ONE, GL_ZERO, GL_ONE);
     else
         glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    if (settings_.blending != Blending::weighted) return;
+    glBlendFunci(0, GL_ONE, GL_ONE);
+    glBlendFunci(1, GL_ZERO, GL_ONE_MINUS_SRC_COLOR);
 }
 
 GLsizei FlakePass::count_beyond(const FlakeDraw& what, double border_m) const
@@ -128,6 +138,10 @@ void FlakePass::use(const FlakeDraw& what, Detail detail) const
     glUseProgram(program);
     if (settings_.blending != Blending::opaque)
         glProgramUniform1i(program, kHasScene, what.scene_depth != 0 ? 1 : 0);
+    if (settings_.blending == Blending::stochastic)
+        glProgramUniform3i(program, kSamples, what.samples.first, what.samples.count, what.samples.all);
+    if (settings_.shutter_s > 0)
+        glProgramUniform1f(program, kShutter, static_cast<float>(settings_.shutter_s));
 }
 
 void FlakePass::draw_range(const FlakeDraw& what, Detail detail, GLsizei first, GLsizei count) const

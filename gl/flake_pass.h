@@ -10,6 +10,7 @@
 #include "gl/flake_split.h"
 #include "gl/lit_program.h"
 #include "gl/object.h"
+#include "gl/unsorted_target.h"
 #include "scene/scene.h"
 
 namespace spindrift::gl
@@ -23,6 +24,8 @@ struct FlakeDraw
     GLuint scene_depth;  ///< copy of the scene's depth; 0: nothing to fade into
     LitBy lights;
     AirKind air;
+    UnsortedTarget::Samples samples{0, 1, 1};  ///< stochastic: those of this pass
+    GLuint velocities = 0;                     ///< by place in the draw list, with a shutter time
 };
 
 /// Draws flakes as points that the vertex shader pulls from the simulation's own buffers.

@@ -42,6 +42,7 @@ enum Binding : unsigned
     kLights = 5,
     kBloomCommandWritten = 6,
     kExposureWritten = 7,
+    kFlakeVelocities = 6,
     kDrawCommands = 6,  // each of these is bound where it is used
     kLampClusters = 7,  // until something is exposed
     kSceneDepth = 0,

@@ -87,6 +87,10 @@ PlannedPass plan_sort(const Facts& facts)
     if (!facts.has_flakes) return left_out("sort", "no flakes are alive");
     if (facts.scene.render.blending == Blending::additive)
         return left_out("sort", "additive blending gives the same sum in any order");
+    if (facts.scene.render.blending == Blending::weighted)
+        return left_out("sort", "weighted blending shares out a pixel by depth, not by order");
+    if (facts.scene.render.blending == Blending::stochastic)
+        return left_out("sort", "each sample keeps the nearest flake, in whatever order they come");
     if (facts.scene.render.blending == Blending::opaque)
         return left_out("sort", "opaque points are ordered by the depth buffer");
     if (facts.scene.render.sort == "none")
@@ -233,6 +237,10 @@ std::string_view blending_name(Blending blending)
             return "over";
         case Blending::additive:
             return "additive";
+        case Blending::weighted:
+            return "weighted";
+        case Blending::stochastic:
+            return "stochastic";
         case Blending::opaque:
             return "opaque";
     }
@@ -242,9 +250,11 @@ std::string_view blending_name(Blending blending)
 std::string flakes_reason(const Facts& facts)
 {
     const std::size_t lamps = facts.lights.lamps.size();
-    return fmt::format("{} blending, {} a flake", blending_name(facts.scene.render.blending),
+    const double shutter_s = facts.scene.render.shutter_s;
+    return fmt::format("{} blending, {} a flake{}", blending_name(facts.scene.render.blending),
                        lamps == 0 ? std::string("no scattering loop")
-                                  : fmt::format("{} phase function{}", lamps, lamps == 1 ? "" : "s"));
+                                  : fmt::format("{} phase function{}", lamps, lamps == 1 ? "" : "s"),
+                       shutter_s > 0 ? fmt::format(", streaks of {:g} s", shutter_s) : std::string());
 }
 
 PlannedPass plan_flakes(const Facts& facts)

@@ -165,7 +165,7 @@ CasterBox casters_of(const scene::Scene& scene, const scene::Geometry& geometry)
         if (const scene::VehicleSettings* vehicle = vehicle_of(scene, mesh.vehicle))
         {
             places.clear();
-            for (const Anchor::Key& key : vehicle->path.keys)
+            for (const scene::VehicleSettings::Key& key : vehicle->path.keys)
                 places.push_back(scene::vehicle_at(*vehicle, scene.domain, key.time_s));
         }
         for (const Vec3f& place : places)

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/flake_motion.h"
 #include "gl/active_lights.h"
 #include "gl/air_pass.h"
 #include "gl/bloom_pass.h"
@@ -26,6 +27,8 @@
 #include "gl/shadow_pass.h"
 #include "gl/tile_pass.h"
 #include "gl/tone_pass.h"
+#include "gl/unsorted_target.h"
+#include "scene/air.h"
 #include "scene/crystals.h"
 
 namespace spindrift::gl
@@ -56,6 +59,7 @@ struct Renderer::Impl
     scene::Scene scene;
     Snow snow;
     std::uint64_t seed;
+    float extinction_per_m;  ///< of the drawn flakes
     std::vector<scene::Light> model_lights;
     const std::vector<scene::CrystalMask>& masks = scene::crystal_masks();
     Texture mask_texture;
@@ -66,6 +70,7 @@ struct Renderer::Impl
     FullScreenPass sky, depth_tiles;
     AirPass air;
     FlakePass flakes;
+    std::optional<UnsortedTarget> unsorted;  ///< made when flakes are first drawn, if they need it
     ExposurePass exposure;
     std::optional<BloomPass> bloom;  ///< made when a plan first asks for it
     TonePass tone;
@@ -73,6 +78,11 @@ struct Renderer::Impl
     bool low_range_shown = false, bloomed = false;  ///< of the display picture
     TilePass tiles;
     Splatter* splatter;
+    const FlakeBuffers& buffers;
+    FlakeMotion motion;
+    std::vector<Vec3f> velocities;
+    Buffer velocity_buffer;
+    std::size_t velocity_room = 0;
     Buffer frame_block;
     Buffer light_buffer;
     std::size_t light_room = 0;
@@ -83,11 +93,12 @@ struct Renderer::Impl
     bool fenced;  // the host writes the flakes
     GLsync flakes_read = nullptr;
 
-    Impl(const scene::Scene& s, const scene::Geometry& geometry, const World& w, const FlakeBuffers& buffers,
+    Impl(const scene::Scene& s, const scene::Geometry& geometry, const World& w, const FlakeBuffers& drawn,
          int width, int height, Splatter* blender)
         : scene(s),
           snow(w.snow),
           seed(w.seed),
+          extinction_per_m(static_cast<float>(scene::flake_extinction(s))),
           model_lights(geometry.model_lights),
           mask_texture(make_crystal_texture(masks)),
           picture(width, height),
@@ -97,14 +108,20 @@ struct Renderer::Impl
           sky("sky.vert", "sky.frag"),
           depth_tiles("full_screen.vert", "depth_tiles.frag"),
           air(s),
-          flakes(s.render, static_cast<double>(w.snow.weight), buffers),
+          flakes(s.render, static_cast<double>(w.snow.weight), drawn),
           exposure(s.render, width, height),
           tone(s),
-          tiles(s, w, buffers),
+          tiles(s, w, drawn),
           splatter(blender),
+          buffers(drawn),
+          motion(w),
           frame_block(make_buffer(sizeof(FrameConstants), nullptr, GL_DYNAMIC_STORAGE_BIT)),
-          fenced(buffers.access() == FlakeBuffers::Access::mapped)
+          fenced(drawn.access() == FlakeBuffers::Access::mapped)
     {
+        if (s.render.shutter_s > 0 && drawn.access() != FlakeBuffers::Access::mapped)
+            throw Error(
+                "render.shutter_s: the processor says how fast flakes fly, and cannot read flakes that CUDA "
+                "writes; use 0, or --backend cpu");
     }
     ~Impl()
     {
@@ -123,6 +140,10 @@ struct Renderer::Impl
     void draw_solid(const FramePlan& plan, const View& view, double time_s);
     void draw_air(const FramePlan& plan);
     void draw_flakes(const FramePlan& plan, const View& view, const DrawList& list);
+    /// Of the flakes of a draw list, where streaks are drawn.
+    void find_velocities(const FramePlan& plan, const DrawList& list);
+    bool needs_target() const;
+    void draw_unsorted(FlakeDraw what);
     void prepare_depth();
     void develop(const FramePlan& plan, double time_s);
     void show_again();
@@ -200,7 +221,7 @@ FrameConstants Renderer::Impl::constants(const View& view, std::size_t lights, d
                 guard};
     c.counts = {static_cast<std::uint32_t>(lights), static_cast<std::uint32_t>(seed),
                 static_cast<std::uint32_t>(masks.size()), ambient_times};
-    c.picture = {width, height, 0, 0};
+    c.picture = {width, height, extinction_per_m, 0};
     for (std::size_t i = 0; i < masks.size(); ++i)
         c.mask_means[i / 4][i % 4] = static_cast<float>(masks[i].mean);
     return c;
@@ -257,13 +278,53 @@ void Renderer::Impl::draw_flakes(const FramePlan& plan, const View& view, const 
     if (fades) timed("fade", [&] { prepare_depth(); });
     if (!plan.runs("flakes")) return;
     glBindTextureUnit(kMasks, mask_texture.name());
-    timed("flakes",
-          [&] {
-              flakes.draw({view, list, fades ? picture.depth_copy.name() : 0, plan.lit, air_kind(plan)});
-          });
+    FlakeDraw what{view,           list,      fades ? picture.depth_copy.name() : 0,          plan.lit,
+                   air_kind(plan), {0, 1, 1}, velocities.empty() ? 0 : velocity_buffer.name()};
+    timed("flakes", [&] { needs_target() ? draw_unsorted(what) : flakes.draw(what); });
     if (!fenced) return;
     if (flakes_read != nullptr) glDeleteSync(flakes_read);
     flakes_read = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+}
+
+void Renderer::Impl::find_velocities(const FramePlan& plan, const DrawList& list)
+{
+    velocities.clear();
+    if (scene.render.shutter_s <= 0 || !(plan.runs("flakes") || plan.runs("tiles"))) return;
+    const FlakeView flakes_now = buffers.flakes();
+    const DrawListView lists = buffers.draw_list();
+    const std::uint64_t* pairs = list.in_scratch ? lists.scratch : lists.pairs;
+    for (std::size_t i = 0; i < list.count; ++i)
+        velocities.push_back(motion.velocity(flakes_now, static_cast<std::uint32_t>(pairs[i])));
+    if (!plan.runs("flakes") || velocities.empty()) return;
+    if (velocities.size() > velocity_room)
+    {
+        velocity_room = velocities.size();
+        velocity_buffer = make_buffer(static_cast<GLsizeiptr>(velocity_room * sizeof(Vec3f)), nullptr,
+                                      GL_DYNAMIC_STORAGE_BIT);
+    }
+    glNamedBufferSubData(velocity_buffer.name(), 0,
+                         static_cast<GLsizeiptr>(velocities.size() * sizeof(Vec3f)), velocities.data());
+}
+
+bool Renderer::Impl::needs_target() const
+{
+    const scene::Blending blending = scene.render.blending;
+    return blending == scene::Blending::weighted || blending == scene::Blending::stochastic;
+}
+
+void Renderer::Impl::draw_unsorted(FlakeDraw what)
+{
+    if (!unsorted) unsorted.emplace(scene.render, picture);
+    picture.copy_depth();
+    for (int pass = 0; pass < unsorted->passes(); ++pass)
+    {
+        what.samples = unsorted->samples(pass);
+        unsorted->begin(picture);
+        glBindTextureUnit(kMasks, mask_texture.name());
+        flakes.draw(what);
+        unsorted->end();
+    }
+    unsorted->compose(picture);
 }
 
 void Renderer::Impl::prepare_depth()
@@ -348,6 +409,7 @@ void Renderer::draw(const FramePlan& plan, const View& view, const DrawList& fla
     m.draw_shadows(plan, lights, flakes.slots, time_s);
     m.cluster_lights(lights, view);  // its binding is used before
     m.draw_solid(plan, view, time_s);
+    m.find_velocities(plan, flakes);
     m.draw_flakes(plan, view, flakes);
     const bool in_tiles = plan.runs("tiles");
     if (in_tiles)
@@ -356,7 +418,7 @@ void Renderer::draw(const FramePlan& plan, const View& view, const DrawList& fla
         const auto times = static_cast<float>(m.flake_ambient_times(lights.size()));
         m.draw_tiles(plan,
                      {view, flakes, lights, m.clusters.view(), Vec3f{ambient.r, ambient.g, ambient.b} * times,
-                      m.air.before_flakes(), m.shadow_pass.on_host(plan.lit), time_s});
+                      m.air.before_flakes(), m.shadow_pass.on_host(plan.lit), time_s, m.velocities.data()});
     }
     if (!in_tiles || !plan.tone_in_tiles) m.develop(plan, time_s);
 }
@@ -376,6 +438,7 @@ void Renderer::resize(int width_px, int height_px)
     if (width_px == impl_->picture.width && height_px == impl_->picture.height) return;
     impl_->tiles.discard();
     impl_->picture = Picture(width_px, height_px);
+    impl_->unsorted.reset();
     impl_->exposure.resize(width_px, height_px);
     impl_->bloom.reset();
 }

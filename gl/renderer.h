@@ -28,7 +28,8 @@ struct PassTime
 class Renderer
 {
   public:
-    /// `splatter` must outlive it; without one, plans whose flakes are drawn in tiles are refused.
+    /// `world`, `buffers` and `splatter` must outlive it; without one, plans whose flakes are drawn in tiles
+    /// are refused.
     Renderer(const scene::Scene& scene, const scene::Geometry& geometry, const World& world,
              const FlakeBuffers& buffers, int width_px, int height_px, Splatter* splatter = nullptr);
     ~Renderer();

@@ -5,6 +5,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "gl/flake_look.h"
+#include "scene/air.h"
 #include "scene/crystals.h"
 #include "scene/development.h"
 
@@ -66,6 +67,23 @@ std::vector<std::uint8_t> level_noise(const Picture& picture, bool dither)
     return noise;
 }
 
+SplatBlending splat_blending(scene::Blending blending)
+{
+    switch (blending)
+    {
+        case scene::Blending::additive:
+            return SplatBlending::additive;
+        case scene::Blending::weighted:
+            return SplatBlending::weighted;
+        case scene::Blending::stochastic:
+            return SplatBlending::stochastic;
+        case scene::Blending::over:
+        case scene::Blending::opaque:  // never in tiles
+            break;
+    }
+    return SplatBlending::over;
+}
+
 }  // namespace
 
 TilePass::TilePass(const scene::Scene& scene, const World& world, const FlakeBuffers& buffers)
@@ -73,6 +91,7 @@ TilePass::TilePass(const scene::Scene& scene, const World& world, const FlakeBuf
       sizes_(world.snow, world.seed),
       real_flakes_(world.snow.weight /
                    static_cast<float>(scene.render.flake_scale * scene.render.flake_scale)),
+      extinction_per_m_(static_cast<float>(scene::flake_extinction(scene))),
       buffers_(buffers),
       texels_(gather_texels(scene::crystal_masks(), crystals_)),
       dither_(scene.display.dither),
@@ -91,7 +110,9 @@ SplatJob TilePass::job(const Frame& frame) const
     job.flake_opacity = static_cast<float>(settings_.flake_opacity);
     job.real_flakes = real_flakes_;
     job.plain_discs = settings_.sprite == scene::Sprite::point;
-    job.additive = settings_.blending == scene::Blending::additive;
+    job.blending = splat_blending(settings_.blending);
+    job.samples = settings_.samples;
+    job.extinction_per_m = extinction_per_m_;
     job.ambient = frame.ambient;
     job.air = frame.air;
     job.lamps = frame.lamps.data();
@@ -103,6 +124,8 @@ SplatJob TilePass::job(const Frame& frame) const
     const DrawListView lists = buffers_.draw_list();
     job.pairs = frame.list.in_scratch ? lists.scratch : lists.pairs;
     job.count = frame.list.count;
+    job.shutter_s = static_cast<float>(settings_.shutter_s);
+    job.velocities = frame.velocities;
     return job;
 }
 

@@ -34,6 +34,7 @@ class TilePass
         SplatAir air;
         LampShadows shadows;
         double time_s;
+        const Vec3f* velocities;  ///< with a shutter time
     };
     /// The light alone, into picture.linear.
     void blend(Splatter& splatter, const Frame& frame, const Picture& picture);
@@ -51,6 +52,7 @@ class TilePass
     scene::RenderSettings settings_;
     FlakeSizes sizes_;
     float real_flakes_;
+    float extinction_per_m_;
     const FlakeBuffers& buffers_;
     CrystalTexels crystals_;  ///< into texels_
     std::vector<std::uint8_t> texels_;

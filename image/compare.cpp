@@ -68,13 +68,6 @@ class Gatherer
     double squares_ = 0, norm_ = 0, worst_ = 0, pixel_worst_ = 0, above_ = 0, pixels_ = 0;
 };
 
-void check_sizes(int width_a, int height_a, int width_b, int height_b)
-{
-    if (width_a != width_b || height_a != height_b)
-        throw Error(fmt::format("cannot compare pictures of {}x{} and {}x{} pixels; give two of one size",
-                                width_a, height_a, width_b, height_b));
-}
-
 std::array<double, 256> srgb_levels()
 {
     std::array<double, 256> linear{};
@@ -88,9 +81,16 @@ std::array<double, 256> srgb_levels()
 
 }  // namespace
 
+void require_same_size(int width_a, int height_a, int width_b, int height_b)
+{
+    if (width_a != width_b || height_a != height_b)
+        throw Error(fmt::format("cannot compare pictures of {}x{} and {}x{} pixels; give two of one size",
+                                width_a, height_a, width_b, height_b));
+}
+
 Difference compare(const Image& a, const Image& b, double tolerance)
 {
-    check_sizes(a.width, a.height, b.width, b.height);
+    require_same_size(a.width, a.height, b.width, b.height);
     Gatherer gather(tolerance);
     for (std::size_t i = 0; i < a.rgba.size(); i += 4)
     {
@@ -106,7 +106,7 @@ Difference compare(const Image& a, const Image& b, double tolerance)
 
 Difference compare(const Image8& a, const Image8& b, int tolerance_levels)
 {
-    check_sizes(a.width, a.height, b.width, b.height);
+    require_same_size(a.width, a.height, b.width, b.height);
     static const std::array<double, 256> linear = srgb_levels();
     Gatherer gather(tolerance_levels);
     for (std::size_t i = 0; i < a.rgb.size(); i += 3)

@@ -20,4 +20,7 @@ struct Difference
 Difference compare(const Image& a, const Image& b, double tolerance);
 Difference compare(const Image8& a, const Image8& b, int tolerance_levels);
 
+/// Throws Error unless two pictures can be compared.
+void require_same_size(int width_a, int height_a, int width_b, int height_b);
+
 }  // namespace spindrift::image

@@ -73,9 +73,10 @@ void blend(scene::Blending blending, const Dab& dab, double z, Canvas& canvas)
 void draw_sprite(const Frame& frame, const Sprite& sprite, int y, std::vector<Canvas>& row)
 {
     const double pixel_y = y + 0.5;
-    if (std::abs(pixel_y - sprite.y) > sprite.r) return;
-    const int last = std::min(frame.view.width_px - 1, static_cast<int>(std::floor(sprite.x + sprite.r)));
-    for (int x = std::max(0, static_cast<int>(std::floor(sprite.x - sprite.r))); x <= last; ++x)
+    const double reach = sprite.r * (1 + sprite.streak.half);
+    if (std::abs(pixel_y - sprite.y) > reach) return;
+    const int last = std::min(frame.view.width_px - 1, static_cast<int>(std::floor(sprite.x + reach)));
+    for (int x = std::max(0, static_cast<int>(std::floor(sprite.x - reach))); x <= last; ++x)
     {
         Canvas& canvas = row[static_cast<std::size_t>(x)];
         const Dab dab = dab_at(sprite, frame.scene, frame.world, frame.crystals, x + 0.5, pixel_y, canvas.z);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/flake_motion.h"
 #include "core/snow.h"
 #include "core/sprite.h"
 
@@ -25,12 +26,26 @@ void set_size(Sprite& sprite, const scene::RenderSettings& render, const View& v
     sprite.opacity = size.opacity;
 }
 
+/// Its way on the picture while the shutter is open; without the share of the plain disc.
+void set_streak(Sprite& sprite, const scene::RenderSettings& render, const View& view, const Vec3d& from_eye,
+                const Vec3d& velocity)
+{
+    const auto seen = [&](const Vec3d& v) {
+        return Vec3d{dot(v, wide(view.right)), dot(v, wide(view.up)), dot(v, wide(view.forward))};
+    };
+    const double focal_px = view.height_px / (2.0 * view.tan_half_fov_y);
+    double x_px = 0, y_px = 0;
+    streak_way(seen(from_eye), seen(velocity), focal_px / sprite.z, render.shutter_s, x_px, y_px);
+    sprite.streak = streak_of(x_px, y_px, sprite.r, std::min<double>(view.guard_px, kLargestSprite_px));
+}
+
 /// Sprite in the colour of its flake: crystal sprites that are lit and large enough are shaded as spheres.
 Rgb radiance(const Sprite& sprite, const scene::RenderSettings& render, double px, double py)
 {
     double shade = 1;
     if (render.blending != scene::Blending::opaque && render.sprite == scene::Sprite::crystal)
-        shade = imposter(px, py, sprite.light.towards, sprite_detail(sprite.r));
+        shade =
+            imposter(px, py, sprite.light.towards, sprite_detail(sprite.r) * streak_detail(sprite.streak));
     const Rgb sum = sprite.light.ambient + sprite.light.lamps * shade;
     const Rgb own{std::min(sum.x, kMostRadiance), std::min(sum.y, kMostRadiance),
                   std::min(sum.z, kMostRadiance)};
@@ -59,6 +74,7 @@ std::vector<Sprite> make_sprites(const scene::Scene& scene, const World& world, 
                 forward = wide(view.forward);
     const double focal_px = view.height_px / (2.0 * view.tan_half_fov_y);
     const FlakeSizes sizes(world.snow, world.seed);
+    const FlakeMotion motion(world);
     std::vector<Sprite> sprites;
     for (std::size_t slot = 0; slot < used; ++slot)
     {
@@ -75,8 +91,11 @@ std::vector<Sprite> make_sprites(const scene::Scene& scene, const World& world, 
         set_size(sprite, scene.render, view, sizes.diameter_m<double>(sprite.id));
         if (air.tiny_flakes_fade && scene.render.blending != scene::Blending::opaque)
             sprite.opacity *= kept_of_tiny(2 * sprite.radius_m * focal_px / sprite.z);
-        if (sprite.x < -sprite.r || sprite.y < -sprite.r || sprite.x > view.width_px + sprite.r ||
-            sprite.y > view.height_px + sprite.r)
+        if (scene.render.shutter_s > 0)
+            set_streak(sprite, scene.render, view, d, wide(motion.velocity(flakes, slot)));
+        const double reach = sprite.r * (1 + sprite.streak.half);
+        if (sprite.x < -reach || sprite.y < -reach || sprite.x > view.width_px + reach ||
+            sprite.y > view.height_px + reach)
             continue;
         const FlakeTurn turn = flake_turn(world.seed, sprite.id, scene::kCrystalShapes);
         sprite.shape = static_cast<int>(turn.shape);
@@ -98,26 +117,41 @@ Dab dab_at(const Sprite& sprite, const scene::Scene& scene, const World& world,
     const double px = (pixel_x - sprite.x) / sprite.r;
     const double py = (sprite.y - pixel_y) / sprite.r;
     const double rho2 = px * px + py * py;
-    if (rho2 > 1 || sprite.z >= z_scene) return {};
+    const bool moves = sprite.streak.half > 0;
+    if ((!moves && rho2 > 1) || sprite.z >= z_scene) return {};
     const Rgb colour = radiance(sprite, render, px, py);
     if (render.blending == scene::Blending::opaque) return {1, colour};
 
-    double profile = 1;
+    double profile = 1, mask = 1, mean = 1;
     if (render.sprite == scene::Sprite::crystal)
     {
         const scene::CrystalMask& crystal = crystals[static_cast<std::size_t>(sprite.shape)];
-        const double t = sprite_detail(sprite.r);
-        double mask = crystal.mean;
+        const double t = sprite_detail(sprite.r) * streak_detail(sprite.streak);
+        mask = mean = crystal.mean;
         if (t > 0)
         {
             const double u = sprite.cosine * px + sprite.sine * py, v = sprite.cosine * py - sprite.sine * px;
             mask += t * (scene::sample_mask(crystal, u, v, std::max(0.0, std::log2(64 / sprite.r))) -
                          crystal.mean);
         }
-        profile = render.flake_opacity * sprite_profile(rho2) * mask;
+        profile = render.flake_opacity;
     }
     const double real_flakes = world.snow.weight / (render.flake_scale * render.flake_scale);
-    const double alpha = weighted_opacity(sprite.opacity * profile, real_flakes);
+    double alpha = 0;
+    if (moves)
+    {
+        const double opacity = sprite.opacity * profile * mean;
+        Streak<double> streak = sprite.streak;
+        streak.even = even_share(opacity, real_flakes);
+        const bool discs = render.sprite == scene::Sprite::point;
+        alpha = weighted_opacity(opacity, real_flakes) * streak_profile(streak, px, py, discs) * mask / mean;
+        alpha = std::min(alpha, 1.0);
+    }
+    else
+    {
+        if (render.sprite == scene::Sprite::crystal) profile *= sprite_profile(rho2) * mask;
+        alpha = weighted_opacity(sprite.opacity * profile, real_flakes);
+    }
     return {alpha * soft_edge(z_scene, sprite.z, 1 / std::max(sprite.radius_m, kThinnestFade_m)), colour};
 }
 

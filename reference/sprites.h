@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/flake.h"
+#include "core/streak.h"
 #include "core/view.h"
 #include "core/world.h"
 #include "reference/shading.h"
@@ -26,6 +27,7 @@ struct Sprite
     double opacity = 0;           ///< what its smallness and nearness leave, before profile and weight
     double cosine = 1, sine = 0;  ///< of its angle
     int shape = 0;
+    Streak<double> streak;  ///< half = 0: stands still
     FlakeLight light;
     AirView air;  ///< before the flake
 };

@@ -97,9 +97,15 @@ double uniform_extinction(const Scene& scene)
         case AirSource::particle_rate:
             return extinction_of_visibility(report_visibility_m(grey_of(air)), air.contrast);
         case AirSource::flakes:
-            return density_of(scene, 0) * full_flake_area_m2(scene.render, scene.snow);
+            return flake_extinction(scene);
     }
     return 0;
+}
+
+double flake_extinction(const Scene& scene)
+{
+    const double flakes_per_m3 = density_of(scene, 0);
+    return flakes_per_m3 > 0 ? flakes_per_m3 * full_flake_area_m2(scene.render, scene.snow) : 0;
 }
 
 AirLayers<double> layers_of(const Scene& scene)

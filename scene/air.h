@@ -36,6 +36,9 @@ FlakeBox flake_box(const Scene& scene, double time_s);
 /// Extinction of the snowfall, 1/m, whatever way it is stated; without the drift.
 double uniform_extinction(const Scene& scene);
 
+/// Extinction of the drawn flakes of the sky at full size, 1/m, where they begin.
+double flake_extinction(const Scene& scene);
+
 /// With the drift, local frame.
 AirLayers<double> layers_of(const Scene& scene);
 

@@ -17,8 +17,11 @@ namespace
 
 constexpr std::array<Named<LightKind>, 3> kLights{
     {{LightKind::point, "point"}, {LightKind::spot, "spot"}, {LightKind::directional, "directional"}}};
-constexpr std::array<Named<Blending>, 3> kBlendings{
-    {{Blending::over, "over"}, {Blending::additive, "additive"}, {Blending::opaque, "opaque"}}};
+constexpr std::array<Named<Blending>, 5> kBlendings{{{Blending::over, "over"},
+                                                     {Blending::additive, "additive"},
+                                                     {Blending::weighted, "weighted"},
+                                                     {Blending::stochastic, "stochastic"},
+                                                     {Blending::opaque, "opaque"}}};
 constexpr std::array<Named<Sprite>, 2> kSprites{{{Sprite::crystal, "crystal"}, {Sprite::point, "point"}}};
 
 constexpr std::array<Named<PhaseKind>, 3> kPhases{{{PhaseKind::henyey_greenstein, "henyey-greenstein"},
@@ -291,8 +294,18 @@ void describe_picture(Section& section, RenderSettings& render)
 void describe_render(Section& section, RenderSettings& render)
 {
     describe_picture(section, render);
-    section.choice({.name = "blending", .about = "sorted far to near, added without a sort, or opaque"},
+    section.choice({.name = "blending",
+                    .about = "sorted far to near, or without a sort: added, weighted by depth, by chance in "
+                             "each sample of a pixel, or opaque; also --blending"},
                    kBlendings, render.blending);
+    const bool by_chance = render.blending == Blending::stochastic;
+    section.whole({.name = "samples",
+                   .about = "of a pixel; the more, the less noise",
+                   .applies = by_chance,
+                   .applies_when = "with blending = \"stochastic\""},
+                  {.min = 2, .max = 16, .allowed = "2, 4, 8 or 16"}, render.samples);
+    section.require((render.samples & (render.samples - 1)) == 0, "samples",
+                    "is not a power of two (graphics cards have no other samples)", "use 2, 4, 8 or 16");
     section.choice({.name = "sprite", .about = "grown crystals, or plain points"}, kSprites, render.sprite);
     section.choice(
         {.name = "scattering",
@@ -321,6 +334,12 @@ void describe_render(Section& section, RenderSettings& render)
                     .about = "irradiance at which a lamp without a range ends, so that many of them cost "
                              "little; 0: it reaches everything"},
                    {.min = 0, .max = 1e6}, render.dimmest_lamp_w_m2);
+    section.number({.name = "shutter_s",
+                    .about = "how long flakes are seen while they fly: they are drawn as streaks; 0: at an "
+                             "instant. Also --shutter",
+                    .applies = render.blending != Blending::opaque,
+                    .applies_when = "with any blending but \"opaque\""},
+                   {.min = 0, .max = 1}, render.shutter_s);
     section.number({.name = "flake_opacity", .about = "at the centre of a flake"}, kShare,
                    render.flake_opacity);
     section.number({.name = "flake_scale",

@@ -61,6 +61,8 @@ void set_overrides(TomlDocument& document, const SceneOverrides& overrides)
     set("render", "sort", overrides.sort);
     set("render", "sort_passes_per_frame", overrides.sort_passes_per_frame);
     set("render", "flake_path", overrides.flake_path);
+    set("render", "blending", overrides.blending);
+    set("render", "shutter_s", overrides.shutter_s);
     set("render", "frames_per_s", overrides.frames_per_s);
     set_whole("width_px", overrides.width_px);
     set_whole("height_px", overrides.height_px);

@@ -258,9 +258,11 @@ struct VehicleSettings
 
 enum class Blending
 {
-    over,      ///< sorted, premultiplied over
-    additive,  ///< no sort
-    opaque,    ///< plain points with depth, no sort
+    over,        ///< sorted, premultiplied over
+    additive,    ///< no sort
+    weighted,    ///< no sort: all flakes of a pixel share what they cover, nearer ones get more
+    stochastic,  ///< no sort: each sample of a pixel is covered by a flake or not, by chance
+    opaque,      ///< plain points with depth, no sort
 };
 
 /// How flakes scatter light.
@@ -291,6 +293,7 @@ struct RenderSettings
     int frames = 90;
     double warm_up_s = 0;  ///< simulated before the first frame
     Blending blending = Blending::over;
+    int samples = 8;  ///< of a pixel, stochastic: 2, 4, 8 or 16
     Sprite sprite = Sprite::crystal;
     Scattering scattering = Scattering::physical;
     FlakePath flake_path = FlakePath::automatic;
@@ -304,6 +307,7 @@ struct RenderSettings
     /// Lamps without a range get one at which their light has faded to this irradiance; 0: they reach
     /// everything.
     double dimmest_lamp_w_m2 = 0;
+    double shutter_s = 0;        ///< how long flakes are seen while they fly; 0: at an instant
     double flake_opacity = 0.9;  ///< at the centre of a flake, 0..1
     double flake_scale = 1;      ///< drawn size over real size; light is kept by weight / scale^2
 };
@@ -370,10 +374,10 @@ struct SceneOverrides
     std::optional<std::uint64_t> particles;  ///< capacity, and bursts and rates scaled with it
     std::optional<std::uint64_t> seed;
     std::optional<std::int64_t> reorder_every_steps;
-    std::optional<std::string> sort, flake_path;
+    std::optional<std::string> sort, flake_path, blending;
     std::optional<int> sort_passes_per_frame;
     std::optional<int> width_px, height_px, frames;
-    std::optional<double> frames_per_s;
+    std::optional<double> frames_per_s, shutter_s;
     std::optional<std::filesystem::path> winds_file, turbulence_file;
 };
 

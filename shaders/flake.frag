@@ -13,7 +13,53 @@ flat in vec3 even;
 #elif defined(WEIGHTED)
 flat in float kept;
 #endif
+#ifdef SHARED
+flat in float share;
+layout(location = 0) out vec4 sum;  // radiance and weight
+layout(location = 1) out float covered;
+
+void put(vec3 radiance, float alpha)
+{
+    sum = vec4(radiance, 1.0) * (alpha * share);
+    covered = alpha;
+}
+#elif defined(SAMPLED)
+flat in uint random;
+layout(location = 1) uniform ivec3 samples;  // the first of this pass, how many it has, how many there are in all
 layout(location = 0) out vec4 colour;
+
+// core/sprite.h
+float grain()
+{
+    uvec2 pixel = uvec2(gl_FragCoord.xy);
+    uint h = random + pixel.x * 0x9E3779B9u + pixel.y * 0x85EBCA6Bu;
+    h = (h ^ (h >> 16)) * 0x7FEB352Du;
+    h = (h ^ (h >> 15)) * 0x846CA68Bu;
+    h ^= h >> 16;
+    return (float(h >> 8) + 0.5) * (1.0 / 16777216.0);
+}
+
+void put(vec3 radiance, float alpha)
+{
+    float first = grain();
+    int covered = 0;
+    for (int s = 0; s < samples.y; ++s)
+        if (fract(first + float(samples.x + s) / float(samples.z)) < alpha) covered |= 1 << s;
+    gl_SampleMask[0] = covered;
+    colour = vec4(radiance, 1.0);
+}
+#else
+layout(location = 0) out vec4 colour;
+
+void put(vec3 radiance, float alpha) { colour = vec4(radiance * alpha, alpha); }
+#endif
+
+#if defined(SAMPLED) || defined(STREAK)
+flat in vec3 disc;
+#endif
+#ifdef STREAK
+flat in vec4 streak;
+#endif
 
 // exp(-rho^2 / (2 0.45^2)) as a power of two.
 const float kProfile = -3.5622594;
@@ -37,6 +83,41 @@ float weighted(float opacity)
 #endif
 }
 
+#ifdef STREAK
+// Integral of the profile along a line, core/streak.h: 14 terms of its series.
+float profile_integral(float x)
+{
+    const float k = 2.4691358;
+    float x2 = x * x;
+    float term = x;
+    float sum = x;
+    for (int n = 1; n < 14; ++n)
+    {
+        term *= -k * x2 / float(n);
+        sum += term / float(2 * n + 1);
+    }
+    return sum;
+}
+
+// Mean of the profile over the way.
+float streak_profile(vec2 p)
+{
+    float s = dot(p, streak.xy);
+    float q = p.y * streak.x - p.x * streak.y;
+    float q2 = min(q * q, 1.0);
+    float chord = sqrt(1.0 - q2);
+    float from = clamp(s - streak.z, -chord, chord);
+    float to = clamp(s + streak.z, -chord, chord);
+    float disc_share = (to - from) * 0.5 / streak.z;
+#ifdef POINT_SPRITE
+    return disc_share;
+#else
+    float gauss = exp2(kProfile * q2) * (profile_integral(to) - profile_integral(from)) * 0.5 / streak.z;
+    return max(mix(gauss, disc_share, streak.w), 0.0);
+#endif
+}
+#endif
+
 #ifdef LARGE
 float imposter(vec2 p, float rho2)
 {
@@ -59,27 +140,40 @@ float soft_edge()
 }
 #endif
 
+// Alpha before the scene cuts in. mask: of the crystal here; mean: of all of it.
+float covering(vec2 p, float rho2, float mask, float mean)
+{
+#ifdef STREAK
+    if (streak.z > 0.0) return min(weighted(glow.a * mean) * streak_profile(p) * (mask / mean), 1.0);
+#endif
+    return weighted(glow.a * profile(rho2) * mask);
+}
+
 void main()
 {
+#if defined(SAMPLED) || defined(STREAK)
+    vec2 p = (gl_FragCoord.xy - disc.xy) / disc.z;
+#else
     vec2 p = vec2(2.0, -2.0) * gl_PointCoord + vec2(-1.0, 1.0);
+#endif
     float rho2 = dot(p, p);
 #ifdef OPAQUE
     if (rho2 > 1.0) discard;
     colour = vec4(glow.rgb, 1.0);
 #elif defined(LARGE)
-    float opacity = glow.a * profile(rho2);
     vec3 lit = glow.rgb;
+    float mask = 1.0;
 #ifndef POINT_SPRITE
-    opacity *= crystal(p);
+    mask = crystal(p);
     lit *= imposter(p, rho2);
 #endif
-    float alpha = weighted(opacity) * soft_edge();
-    colour = vec4(min(even + lit, 6e4) * alpha, alpha);
+    float alpha = covering(p, rho2, mask, fade.z) * soft_edge();
+    put(min(even + lit, 6e4), alpha);
 #else
-    float alpha = weighted(glow.a * profile(rho2));
+    float alpha = covering(p, rho2, 1.0, 1.0);
 #ifdef WEIGHTED
     alpha *= kept;
 #endif
-    colour = vec4(glow.rgb * alpha, alpha);
+    put(glow.rgb, alpha);
 #endif
 }

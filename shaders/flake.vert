@@ -26,6 +26,20 @@ flat out vec3 even;   // radiance that the imposter does not shade
 flat out float kept;  // share of alpha that is left where the flake cuts into the scene
 #endif
 
+#ifdef SHARED
+flat out float share;  // in what all flakes of a pixel cover
+#elif defined(SAMPLED)
+flat out uint random;  // bits of the flake's own
+#endif
+#if defined(SAMPLED) || defined(STREAK)
+flat out vec3 disc;  // centre and radius, px from the lower left corner of the picture
+#endif
+#ifdef STREAK
+layout(std430, binding = 6) readonly buffer Motion { float velocities[]; };  // by place in the draw list, m/s
+layout(location = 2) uniform float shutter_s;
+flat out vec4 streak;    // unit vector along the way, half of it in radii (0: none), share of the plain disc
+#endif
+
 const float kSmallest = 0.75;  // px, radius
 const float kLargestRadiance = 6e4;
 
@@ -98,6 +112,31 @@ void see_through_air(vec3 way, float distance_m, uint cluster, inout vec3 lit, i
 }
 #endif
 
+#ifdef STREAK
+// core/streak.h; its share of the plain disc comes with the opacity.
+vec4 streak_of(vec3 v, float drawn)
+{
+    vec3 velocity = vec3(velocities[3 * gl_VertexID], velocities[3 * gl_VertexID + 1], velocities[3 * gl_VertexID + 2]);
+    vec3 seen = vec3(dot(velocity, right_tan.xyz), dot(velocity, up_tan.xyz), dot(velocity, forward_near.xyz));
+    vec2 way = (seen.xy - v.xy * (seen.z / v.z)) * (0.5 * shutter_s * horizon_focal.w / v.z);
+    float px = length(way);
+    float half_way = min(px, sprite.x - drawn) / drawn;
+    return vec4(px > 1e-9 ? way / px : vec2(1.0, 0.0), half_way > 0.05 ? half_way : 0.0, 0.0);
+}
+
+float weighted(float opacity) { return 1.0 - exp2(log2(1.0 - min(opacity, 0.9999)) * look.w); }
+
+float even_share(float opacity)
+{
+    const vec4 place = vec4(0.06943184, 0.33000948, 0.66999052, 0.93056816);
+    const vec4 weight = vec4(0.17392742, 0.32607258, 0.32607258, 0.17392742);
+    const float gauss = 0.37071351;
+    float sum = 0.0;
+    for (int i = 0; i < 4; ++i) sum += weight[i] * weighted(opacity * exp2(-3.5622594 * place[i]));
+    return (sum / max(weighted(opacity), 1e-12) - gauss) / (1.0 - gauss);
+}
+#endif
+
 void hide()
 {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
@@ -123,14 +162,31 @@ void main()
     float r = radius_m * horizon_focal.w / z;
     float drawn = clamp(r, kSmallest, sprite.x);
 #ifndef LARGE
+#ifndef STREAK
     if (drawn < 3.5 && hidden(clip, drawn))
     {
         hide();
         return;
     }
 #endif
+#endif
     gl_Position = clip;
     gl_PointSize = 2.0 * drawn;
+#ifdef SHARED
+    share = exp2(max(picture.z * z * -1.44269504, -30.0));
+#elif defined(SAMPLED)
+    // With samples a point covers a pixel only where it covers them: all pixels whose centre is in the sprite need a rim.
+    gl_PointSize = min(gl_PointSize + 2.0, 255.0);
+    random = look_hash(base, 1u);
+#endif
+#if defined(SAMPLED) || defined(STREAK)
+    disc = vec3(centre_px(clip), drawn);
+#endif
+#ifdef STREAK
+    streak = streak_of(v, drawn);
+    // A sprite with its streak, and a rim for samples.
+    gl_PointSize = min(2.0 * drawn * (1.0 + streak.z) + 2.0, 255.0);
+#endif
 
     vec3 towards;
     vec3 to_eye = (eye_time.xyz - p) * inversesqrt(dot(v, v));
@@ -155,6 +211,9 @@ void main()
     opacity *= look.z;
     mean = mask_means[which >> 2][which & 3u];
 #endif
+#ifdef STREAK
+    streak.w = even_share(opacity * mean);
+#endif
 #ifdef LARGE
     float turn = look_unit(look_hash(base, 2u)) + (look_unit(look_hash(base, 3u)) - 0.5) * eye_time.w;
     float angle = 6.283185307 * fract(turn);
@@ -163,6 +222,9 @@ void main()
     glow = vec4(lit, opacity);
     even = ambient;
     lamp = vec4(dot(l, right_tan.xyz), dot(l, up_tan.xyz), -dot(l, forward_near.xyz), clamp((r - 3.0) / 3.0, 0.0, 1.0));
+#ifdef STREAK
+    lamp.w *= max(1.0 - 2.0 * streak.z, 0.0);
+#endif
     shape = vec4(cos(angle), sin(angle), floor(max(log2(64.0 / drawn), 0.0) + 0.5), float(which));
     fade = r < 3.0 || has_scene == 0 ? vec3(soft_edge(clip, z, length_m), -1.0, mean) : vec3(z, 1.0 / length_m, mean);
 #else

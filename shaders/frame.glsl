@@ -12,7 +12,7 @@ layout(std140, binding = 0) uniform Frame
     vec4 look;              // mean melted diameter (mm), flake_scale, flake_opacity, weight / scale^2
     vec4 sprite;            // largest radius (px), guard band: width and height of the picture over the viewport's, guard (px)
     uvec4 counts;           // lights, low word of the seed, crystal shapes, how many times flakes get the ambient light
-    vec4 picture;           // width, height (px), 0, 0
+    vec4 picture;           // width, height (px), extinction of the drawn flakes (1/m), 0
     vec4 mask_means[4];     // of the crystal shapes
 };
 

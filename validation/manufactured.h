@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "cpu/multigrid.h"
+#include "core/poisson_levels.h"
 
 namespace spindrift::validation
 {
@@ -13,7 +13,7 @@ namespace spindrift::validation
 /// exp(stretch) times as thick as the lowest.
 struct Manufactured
 {
-    cpu::PoissonProblem problem;
+    PoissonProblem problem;
     std::vector<double> b, truth;  ///< in the layout of box()
 
     Manufactured(int n, double stretch);

@@ -88,9 +88,9 @@ Outcome validate_solver_order(const Settings&)
         {
             const Manufactured field(n, stretch);
             std::vector<double> x;
-            cpu::PoissonSettings settings;
+            PoissonSettings settings;
             settings.tolerance = 1e-10;
-            const cpu::PoissonResult done = cpu::PoissonSolver(field.problem).solve(field.b, x, settings);
+            const PoissonResult done = cpu::PoissonSolver(field.problem).solve(field.b, x, settings);
             const double error = field.error(x);
             const std::string which = fmt::format("layers stretched by exp {:g}, {} cells: ", stretch, n);
             outcome.checks.push_back(at_most(which + "relative residual", done.relative_residual, 1e-10));

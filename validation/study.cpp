@@ -275,14 +275,14 @@ SolverPoint measure_solver(const SolverSetting& setting, int threads)
     const Manufactured field(setting.cells, 0);
     SolverPoint point;
     point.cells = setting.cells, point.tolerance = setting.tolerance;
-    point.is_default = setting.tolerance == cpu::PoissonSettings{}.tolerance;
+    point.is_default = setting.tolerance == PoissonSettings{}.tolerance;
     tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
     std::vector<double> x, ms;
     for (int round = 0; round < 3; ++round)
         arena.execute(
             [&]
             {
-                cpu::PoissonSettings settings;
+                PoissonSettings settings;
                 settings.tolerance = setting.tolerance;
                 const auto start = Clock::now();
                 point.iterations = cpu::PoissonSolver(field.problem).solve(field.b, x, settings).iterations;

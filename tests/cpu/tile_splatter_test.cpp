@@ -33,6 +33,7 @@ struct Splash
     std::vector<std::uint16_t> rgba;
     std::vector<std::uint8_t> display;
     std::vector<Lamp<float>> lamps;
+    std::vector<Vec3f> velocities;
     std::vector<float> shade_area_m2, shade_integral_m3;
     SplatJob job;
 
@@ -124,6 +125,18 @@ struct Splash
             {-4, -1, -3}, {5, 14, 3}, 2, {shade_area_m2.data(), shade_integral_m3.data(), 64, -3, 8}};
     }
 
+    /// Every flake on a way of its own while the shutter is open.
+    void let_fly()
+    {
+        for (std::size_t i = 0; i < pairs.size(); ++i)
+        {
+            const float turn = static_cast<float>(i % 97);
+            velocities.push_back({5 - 0.1F * turn, 0.03F * turn, -2 + 0.02F * turn});
+        }
+        job.shutter_s = 0.02F;
+        job.velocities = velocities.data();
+    }
+
     void splat(const CpuOptions& options)
     {
         make_tile_splatter(options)->splat(
@@ -133,18 +146,19 @@ struct Splash
 
 TEST(TileSplatter, GivesTheSameBitsWithAnyThreadsAndInstructions)
 {
-    for (const bool additive : {false, true})
+    for (const SplatBlending blending :
+         {SplatBlending::over, SplatBlending::additive, SplatBlending::weighted, SplatBlending::stochastic})
     {
         Splash truth(9000);
         const std::vector<std::uint16_t> before = truth.rgba;
-        truth.job.additive = additive;
+        truth.job.blending = blending;
         truth.splat({1, Simd::scalar});
         EXPECT_NE(truth.rgba, before);
         for (const Simd simd : available_simd())
             for (const int threads : {1, 3})
             {
                 Splash other(9000);
-                other.job.additive = additive;
+                other.job.blending = blending;
                 other.splat({threads, simd});
                 EXPECT_EQ(other.rgba, truth.rgba) << simd_name(simd) << ", " << threads << " threads";
                 EXPECT_EQ(other.display, truth.display) << simd_name(simd) << ", " << threads << " threads";
@@ -163,6 +177,22 @@ TEST(TileSplatter, GivesTheSameBitsInThickAir)
     {
         Splash other(3000);
         other.thicken();
+        other.splat({3, simd});
+        EXPECT_EQ(other.rgba, truth.rgba) << simd_name(simd);
+    }
+}
+
+TEST(TileSplatter, GivesTheSameBitsOfStreaks)
+{
+    Splash still(3000), truth(3000);
+    still.splat({1, Simd::scalar});
+    truth.let_fly();
+    truth.splat({1, Simd::scalar});
+    EXPECT_NE(truth.rgba, still.rgba);
+    for (const Simd simd : available_simd())
+    {
+        Splash other(3000);
+        other.let_fly();
         other.splat({3, simd});
         EXPECT_EQ(other.rgba, truth.rgba) << simd_name(simd);
     }

@@ -54,6 +54,12 @@ TEST_F(PlanTest, NoFlakesNothingToCullSortFadeOrDraw)
 
 TEST_F(PlanTest, AdditiveAndOpaqueNeedNoSort)
 {
+    for (const scene::Blending unsorted : {scene::Blending::weighted, scene::Blending::stochastic})
+    {
+        scene.render.blending = unsorted;
+        EXPECT_FALSE(plan().runs("sort"));
+        EXPECT_TRUE(plan().runs("flakes"));
+    }
     scene.render.blending = scene::Blending::additive;
     EXPECT_FALSE(plan().runs("sort"));
     EXPECT_TRUE(plan().runs("cull"));

@@ -8,8 +8,8 @@
 #include "gl/context.h"
 #include "image/compare.h"
 #include "image/write.h"
-#include "reference/reference.h"
 #include "tests/golden/gl_picture.h"
+#include "tests/golden/reference_picture.h"
 #include "tests/golden/small_scenes.h"
 
 namespace spindrift::golden
@@ -115,9 +115,7 @@ TEST_P(GlAgainstReference, DrawsTheSamePicture)
     SmallScene small = small_scene(c);
     const GlPicture drawn = draw_with_gl(small);
     EXPECT_EQ(drawn.errors, "");
-    const image::Image truth =
-        reference::render(small.scene, small.geometry, small.world, small.flakes.view(),
-                          small.flakes.x.size(), small.view, small.time_s);
+    const image::Image truth = reference_picture(small);
     const image::Difference off = image::compare(drawn.linear, truth, 1e-2);
     RecordProperty("relative_l2", std::to_string(off.relative_l2));
     RecordProperty("share_above_1e-2", std::to_string(off.share_above));
@@ -134,14 +132,9 @@ TEST_P(GlAgainstReference, SeesTheFlakes)
     const Case& c = tested();
     if (c.flakes == 0) GTEST_SKIP() << "a scene without flakes";
     SmallScene small = small_scene(c);
-    const auto draw = [&]
-    {
-        return reference::render(small.scene, small.geometry, small.world, small.flakes.view(),
-                                 small.flakes.x.size(), small.view, small.time_s);
-    };
-    const image::Image with = draw();
+    const image::Image with = reference_picture(small);
     small.flakes = {};
-    EXPECT_GT(image::compare(with, draw(), 0).relative_l2, 20 * c.most_relative_l2);
+    EXPECT_GT(image::compare(with, reference_picture(small), 0).relative_l2, 20 * c.most_relative_l2);
 }
 
 TEST_P(GlAgainstReference, SeesTheShadows)
@@ -168,6 +161,8 @@ INSTANTIATE_TEST_SUITE_P(
             Case{"over_small", 2000, 20, Blending::over, Sprite::crystal, false, Air::clear, 1e-3, 1e-3},
             Case{"over_large", 2000, 60, Blending::over, Sprite::crystal, false, Air::clear, 1e-3, 1e-3},
             Case{"over_lamps", 2000, 40, Blending::over, Sprite::crystal, true, Air::clear, 1e-3, 1e-3},
+            Case{"weighted_even", 2000, 60, Blending::weighted, Sprite::crystal, false, Air::clear, 1e-3,
+                 1e-3},
             Case{"over_discs", 2000, 40, Blending::over, Sprite::point, true, Air::clear, 1e-2, 3e-3},
             Case{"additive_lamps", 2000, 40, Blending::additive, Sprite::crystal, true, Air::clear, 1e-3,
                  1e-3},

@@ -49,25 +49,27 @@ std::vector<std::uint32_t> order_of(const StillFlakes& flakes, const View& view)
 
 }  // namespace
 
-GlPicture draw_with_gl(SmallScene& small)
+GlPicture draw_with_gl(SmallScene& small, Order order)
 {
-    return draw_with_gl(small, *cpu::make_tile_splatter({}));
+    return draw_with_gl(small, *cpu::make_tile_splatter({}), order);
 }
 
-GlPicture draw_with_gl(SmallScene& small, Splatter& splatter)
+GlPicture draw_with_gl(SmallScene& small, Splatter& splatter, Order order)
 {
     const std::size_t count = small.flakes.x.size();
     const gl::FlakeBuffers buffers(std::max<std::size_t>(count, 1));
     copy_flakes(small.flakes, buffers.flakes());
     std::uint64_t rank = 0;
-    for (const std::uint32_t slot : order_of(small.flakes, small.view))
+    std::vector<std::uint32_t> slots = order_of(small.flakes, small.view);
+    if (order == Order::near_to_far) std::reverse(slots.begin(), slots.end());
+    for (const std::uint32_t slot : slots)
     {
         buffers.draw_list().pairs[rank] = rank << 32U | slot;
         ++rank;
     }
     DrawList list;
     list.count = count;
-    list.sorted = true;
+    list.sorted = order == Order::far_to_near;
     list.slots = count;
 
     gl::FrameStats stats;

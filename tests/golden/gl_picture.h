@@ -15,9 +15,16 @@ struct GlPicture
     std::string errors;     ///< what the driver complained of; empty when all is well
 };
 
-/// Draws a small scene with gl::Renderer, its flakes handed over in the exact order far to near. Needs a
+/// Of the draw list; over-blending needs the first.
+enum class Order
+{
+    far_to_near,
+    near_to_far,
+};
+
+/// Draws a small scene with gl::Renderer, its flakes handed over in the exact order. Needs a
 /// current context.
-GlPicture draw_with_gl(SmallScene& small);
-GlPicture draw_with_gl(SmallScene& small, Splatter& splatter);
+GlPicture draw_with_gl(SmallScene& small, Order order = Order::far_to_near);
+GlPicture draw_with_gl(SmallScene& small, Splatter& splatter, Order order = Order::far_to_near);
 
 }  // namespace spindrift::golden

@@ -9,8 +9,8 @@
 #include "cpu/tile_splatter.h"
 #include "gl/context.h"
 #include "image/compare.h"
-#include "reference/reference.h"
 #include "tests/golden/gl_picture.h"
+#include "tests/golden/reference_picture.h"
 #include "tests/golden/small_scenes.h"
 
 namespace spindrift::golden
@@ -83,12 +83,6 @@ class ManyLamps : public testing::Test
     static void SetUpTestSuite() { context_ = gl::make_headless_context(); }
     static void TearDownTestSuite() { context_.reset(); }
     static std::unique_ptr<gl::Context> context_;
-
-    static image::Image reference_of(SmallScene& small)
-    {
-        return reference::render(small.scene, small.geometry, small.world, small.flakes.view(),
-                                 small.flakes.x.size(), small.view, small.time_s);
-    }
 };
 
 std::unique_ptr<gl::Context> ManyLamps::context_;
@@ -112,9 +106,10 @@ TEST_F(ManyLamps, LookLikeTheReferenceThatComputesThemAll)
     for (const bool thick : {false, true})
     {
         SmallScene small = lit_scene(25, thick);
-        const image::Image truth = reference_of(small);
+        const image::Image truth = reference_picture(small);
         SmallScene few = lit_scene(0, thick);
-        EXPECT_GT(image::compare(reference_of(few), truth, 1e-2).relative_l2, 0.02) << "the lamps matter";
+        EXPECT_GT(image::compare(reference_picture(few), truth, 1e-2).relative_l2, 0.02)
+            << "the lamps matter";
         for (const FlakePath path : {FlakePath::raster, FlakePath::tiles})
         {
             small.scene.render.flake_path = path;
@@ -138,7 +133,7 @@ TEST_F(ManyLamps, WithoutARangeEndWithinTheStatedError)
         lamp.g = 0.5;
         most += std::max(henyey_greenstein(0.5, 1.0), 1 / 3.14159) * dimmest;
     }
-    const image::Image truth = reference_of(small);
+    const image::Image truth = reference_picture(small);
     for (const FlakePath path : {FlakePath::raster, FlakePath::tiles})
     {
         small.scene.render.flake_path = path;
