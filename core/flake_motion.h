@@ -26,7 +26,7 @@ class FlakeMotion
         Vec3f v = air_at(x, q, whirled);
         if (flakes.slip_x != nullptr)
             v = v + Vec3f{flakes.slip_x[slot], flakes.slip_y[slot], flakes.slip_z[slot]};
-        v.z -= job_.fall_speed.at<float>(flakes.id[slot]);
+        v.z -= job_.fall_speed.at<float>(flakes.id[slot], flakes.state[slot]);
         return v;
     }
 

@@ -87,6 +87,14 @@ TEST_F(CudaCommand, DrawsTheProcessorsPictureOnBothWaysToGl)
     EXPECT_THAT(copied.stats.at("flake_memory").get<std::string>(), HasSubstr("page-locked"));
 }
 
+TEST_F(CudaCommand, RefusesStreaksForWhichTheProcessorWouldHaveToReadFlakes)
+{
+    const Finished run = run_command({"run", small_scene(), "--headless", "--frames", "1", "--out",
+                                      in_folder("x.png"), "--backend", "cuda", "--shutter", "0.02"});
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_THAT(run.error, HasSubstr("shutter_s"));
+}
+
 TEST_F(CudaCommand, RefusesTilesWhichTheProcessorWouldHaveToBlend)
 {
     for (const char* interop : {"on", "off"})
