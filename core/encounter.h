@@ -149,12 +149,14 @@ struct EncounterResolver
             f.x = walked.end;
             if (walked.fate != Fate::alive) return stop(f, walked.fate, region, tally);
             f.path = f.path * (1.0F - border.share);
+            const bool whole = border.share >= 1.0F;
             if (walked.bounces > 0)
             {
                 bounced = true;
                 reflect(f, velocity, walked);
                 if (!region.sky) border = border_after_bounce(f, region, border, walked);
             }
+            if (border.axis < 0 && !whole) continue;  // a bounce took it away from the border that was ahead
             if (border.axis < 0) break;
             if (!cross(f, region, border, tally)) return;
         }

@@ -116,6 +116,29 @@ TEST_P(EveryBackend, MovesFlakesAsTheOracleDoesInAnalyticWinds)
         }
 }
 
+/// Inertia, crossing trajectories and drift, in steps that need dice for the last place, that are as usual,
+/// and that are cut before walls.
+TEST_P(EveryBackend, MovesHeavyAndDriftingFlakesAsTheOracleDoes)
+{
+    for (const double step_s : {1e-4, 1.0 / 30, 0.3})
+        for (const bool turbulent : {true, false})
+        {
+            World world = world_with_everything(3000, OnLeave::respawn, turbulent);
+            world.step_s = step_s;
+            world.snow.inertia = true;
+            world.snow.crossing = 1.5F;
+            world.grains = lifted_law(grain_law(0.05));
+            Emitter drift;
+            drift.shape = EmitterShape::drift;
+            drift.a = {5, 5, 0.5F}, drift.b = {20, 9, 4};
+            drift.radius_m = 0.05F, drift.lift_m_s = 0.3F;
+            drift.rate_per_s = 30 / step_s;
+            drift.burst = 200;
+            world.emitters.push_back(drift);
+            expect_parity(world, 4, 2);
+        }
+}
+
 /// Room for so many flakes: at the ends of warps, blocks and tiles.
 TEST_P(EveryBackend, MovesFlakesAsTheOracleDoesInAWindThatChanges)
 {

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/encounter.h"
 #include "core/walk.h"
 #include "tests/stress/tracers.h"
 
@@ -120,6 +121,32 @@ TEST(Walls, KeepTheLengthOfThePath)
         ASSERT_NEAR(end.end.x, folded, 1e-9) << "way of " << way;
         ASSERT_NEAR(end.end.y, 6.3, 1e-12);
         ASSERT_EQ(end.bounces, static_cast<int>(std::abs(std::floor((start + way - 3) / 3))));
+    }
+}
+
+/// Also where a border lies behind the wall, within the reach of the same path.
+TEST(Walls, KeepTheLengthOfAPathThatABorderIsBehind)
+{
+    World w = tracer_world(1, {12, 12, 12}, 1);
+    w.voxels = cpu::test::voxels(
+        12, 12, 12, 1, [](int x, int, int) { return x < 3 || x > 5; },
+        [](int, int, int) { return std::uint8_t{0}; });
+    w.surfaces = {{Contact::bounce, 1}};
+    const Region region{{0, 0, 0}, w.size_m, false};
+    Surroundings around;
+    around.solids = solids_view(w);
+    around.regions = &region;
+    for (const float way : {-7.0F, 7.0F, -20.0F, 33.0F, -100.0F})
+    {
+        Encounter f;
+        f.x = {3.75F, 6, 6}, f.path = {way, 0.5F, 0};
+        f.air = {};
+        EncounterTally tally;
+        EncounterResolver{around, 1, 0, 0, false, false}(f, tally);
+        const double turns = (3.75 + static_cast<double>(way) - 3) / 6;
+        ASSERT_EQ(tally.left, 0U) << way;
+        EXPECT_NEAR(f.x.x, 6 * std::abs(turns - std::round(turns)) + 3, 0.01) << way;  // rounding off faces
+        EXPECT_NEAR(f.x.y, 6.5, 1e-3) << way;
     }
 }
 
