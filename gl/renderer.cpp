@@ -75,6 +75,7 @@ struct Renderer::Impl
     std::optional<BloomPass> bloom;  ///< made when a plan first asks for it
     TonePass tone;
     std::optional<TonePass> low_range;              ///< made when it is first asked for
+    std::vector<unsigned char> read_back;           ///< RGBA, kept: fresh memory costs as much as the copy
     bool low_range_shown = false, bloomed = false;  ///< of the display picture
     TilePass tiles;
     Splatter* splatter;
@@ -231,7 +232,11 @@ void Renderer::Impl::draw_shadows(const FramePlan& plan, const std::vector<Lamp<
                                   std::uint64_t slots, double time_s)
 {
     const bool dims_lamps = plan.runs("fog") && scene.air.law == scene::FogLaw::exponential;
-    if (plan.runs("shadows")) timed("shadows", [&] { shadow_pass.draw_scene(scene_pass, lamps, time_s); });
+    if (plan.runs("shadows"))
+    {
+        shadow_pass.turn_to_maps(lamps);
+        timed("shadows", [&] { shadow_pass.draw_scene(scene_pass, lamps, time_s); });
+    }
     if (plan.runs("snow shade"))
         timed("snow shade", [&] { shadow_pass.draw_snow(flake_buffers, slots, lamps, time_s, dims_lamps); });
     shadow_pass.bind(plan.lit);
@@ -473,13 +478,16 @@ image::Image8 Renderer::read_display() const
     const Picture& picture = impl_->picture;
     const auto columns = static_cast<std::size_t>(picture.width);
     const auto rows = static_cast<std::size_t>(picture.height);
-    std::vector<unsigned char> pixels(columns * rows * 4);
+    std::vector<unsigned char>& pixels = impl_->read_back;
+    pixels.resize(columns * rows * 4);
     glGetTextureImage(picture.display.name(), 0, GL_RGBA, GL_UNSIGNED_BYTE,
                       static_cast<GLsizei>(pixels.size()), pixels.data());
     image::Image8 image{picture.width, picture.height, std::vector<unsigned char>(columns * rows * 3)};
-    for (std::size_t y = 0; y < rows; ++y)
-        for (std::size_t x = 0; x < columns; ++x)
-            std::copy_n(&pixels[((rows - 1 - y) * columns + x) * 4], 3, &image.rgb[(y * columns + x) * 3]);
+    unsigned char* to = image.rgb.data();
+    for (std::size_t y = rows; y-- > 0;)
+        for (const unsigned char *from = &pixels[y * columns * 4], *end = from + columns * 4; from != end;
+             from += 4, to += 3)
+            to[0] = from[0], to[1] = from[1], to[2] = from[2];
     return image;
 }
 

@@ -114,13 +114,20 @@ void ShadowPass::make_maps(std::size_t lamps)
     }
 }
 
+void ShadowPass::turn_to_maps(const std::vector<Lamp<float>>& lamps)
+{
+    make_maps(casters(lamps));
+    glBindFramebuffer(GL_FRAMEBUFFER, targets_.front().name());
+    glViewport(0, 0, known_.map_px, known_.map_px);
+    glDisable(GL_SCISSOR_TEST);
+    glDepthMask(GL_TRUE);
+    glClear(GL_DEPTH_BUFFER_BIT);
+}
+
 void ShadowPass::draw_scene(const ScenePass& solids, const std::vector<Lamp<float>>& lamps, double time_s)
 {
     const std::size_t count = casters(lamps);
-    make_maps(count);
-    glViewport(0, 0, known_.map_px, known_.map_px);
     glEnable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);
     glDisable(GL_CULL_FACE);
     glEnable(GL_DEPTH_CLAMP);  // what stands nearer to the light than the map begins hides too

@@ -25,6 +25,9 @@ class ShadowPass
   public:
     ShadowPass(const scene::Scene& scene, const scene::Geometry& geometry, const World& world);
 
+    /// Makes room for their maps and turns to the first. Before draw_scene is timed: software GL counts from
+    /// the start of the machine where a query begins before a target has been drawn to.
+    void turn_to_maps(const std::vector<Lamp<float>>& lamps);
     /// The scene's maps of the lamps that cast shadows: the first of `lamps`.
     void draw_scene(const ScenePass& solids, const std::vector<Lamp<float>>& lamps, double time_s);
     /// The snow's slices of the same lamps, from every living flake of the first `slots`. `in_fog`: the air's

@@ -121,7 +121,7 @@ TEST_P(Golden, LooksAsItDid)
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Golden,
-                         testing::Combine(testing::Values(Showing{"town", 40'000, 320, 180, 1, 4e-3},
+                         testing::Combine(testing::Values(Showing{"town", 40'000, 320, 180, 1},
                                                           Showing{"canyon", 20'000, 320, 180, 8},
                                                           Showing{"sheet", 4'000, 320, 180, 4},
                                                           Showing{"calm", 4'000, 320, 180, 1, 5e-3, 2e-3},
