@@ -49,10 +49,6 @@ FrameDrawer::FrameDrawer(const scene::Scene& scene, const scene::Geometry& geome
         throw Error(
             "render.flake_path = \"tiles\": the processor blends tiles, and cannot read flakes that CUDA "
             "writes; use \"auto\" or \"raster\", or --backend cpu");
-    if (gl_ == gl::GlKind::out_of_reach && scene.render.shutter_s > 0)
-        throw Error(
-            "render.shutter_s: the processor finds how far flakes go while the shutter is open, and cannot "
-            "read those that CUDA writes; use 0, or --backend cpu");
 }
 
 void FrameDrawer::set_sort(const std::string& strategy)

@@ -66,7 +66,6 @@ struct Renderer::Impl
     Picture picture;
     ScenePass scene_pass;
     ShadowPass shadow_pass;
-    const FlakeBuffers& flake_buffers;
     FullScreenPass sky, depth_tiles;
     AirPass air;
     FlakePass flakes;
@@ -105,7 +104,6 @@ struct Renderer::Impl
           picture(width, height),
           scene_pass(s, geometry),
           shadow_pass(s, geometry, w),
-          flake_buffers(buffers),
           sky("sky.vert", "sky.frag"),
           depth_tiles("full_screen.vert", "depth_tiles.frag"),
           air(s),
@@ -238,7 +236,7 @@ void Renderer::Impl::draw_shadows(const FramePlan& plan, const std::vector<Lamp<
         timed("shadows", [&] { shadow_pass.draw_scene(scene_pass, lamps, time_s); });
     }
     if (plan.runs("snow shade"))
-        timed("snow shade", [&] { shadow_pass.draw_snow(flake_buffers, slots, lamps, time_s, dims_lamps); });
+        timed("snow shade", [&] { shadow_pass.draw_snow(buffers, slots, lamps, time_s, dims_lamps); });
     shadow_pass.bind(plan.lit);
 }
 

@@ -241,10 +241,10 @@ void describe_wind_files(Section& section, WindSettings& wind)
 
 void describe_gusts(Section& section, WindSettings& wind)
 {
-    section.number({.name = "speed_m_s",
-                    .about = "root mean square of each horizontal component at reference_height_m",
-                    .required = true},
-                   {.min = 0, .max = 50}, wind.gust_speed_m_s);
+    section.number(
+        {.name = "speed_m_s",
+         .about = "root mean square of each horizontal component at reference_height_m; 0: no gusts"},
+        {.min = 0, .max = 50}, wind.gust_speed_m_s);
     section.number({.name = "length_m",
                     .about = "of the longest waves; the shortest are an eighth of it, and walls are felt "
                              "within a quarter of it"},
