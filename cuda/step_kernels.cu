@@ -50,7 +50,7 @@ struct PlaceBodies
     __device__ void operator()() const { blown.place_bodies(control->state.step); }
 };
 
-struct Stream
+struct BlowStream
 {
     const StepControl* control;
     BlownWind blown;
@@ -174,7 +174,7 @@ void blow(StreamRef stream, const StepAddresses& step)
     const BlownWind& blown = step.blown;
     if (blown.states.count == 0) return;
     if (blown.body_count > 0) launch_alone(stream, "place bodies", PlaceBodies{step.control, blown});
-    launch(stream, "gusts", blown.stream_points(), Stream{step.control, blown});
+    launch(stream, "gusts", blown.stream_points(), BlowStream{step.control, blown});
     launch(stream, "blow", blown.states.cells, BlowCell{step.control, blown});
 }
 
