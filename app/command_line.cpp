@@ -155,8 +155,9 @@ void add_wind_files(CLI::App& command, scene::SceneOverrides& scene)
 {
     const char* group = "The scene, changed";
     command
-        .add_option("--wind", scene.winds_file,
-                    "Wind field: a file of QES-Winds (*_windsWk.nc), of spindrift wind, or QUIC's QU_velocity.dat")
+        .add_option(
+            "--wind", scene.winds_file,
+            "Wind field: a file of QES-Winds (*_windsWk.nc), of spindrift wind, or QUIC's QU_velocity.dat")
         ->type_name("FILE")
         ->group(group);
     command

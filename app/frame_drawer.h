@@ -64,7 +64,7 @@ class FrameDrawer
     std::optional<double> last_time_s_;
     std::uint64_t last_step_ = 0;
     DrawList list_;
-    FlakeCounts counts_;  ///< when the list was made
+    FlakeCounts counts_;               ///< when the list was made
     std::optional<gl::Moving> shown_;  ///< in the last frame
     gl::ShadowCast shadows_;           ///< for which maps are kept
     bool snow_shaded_ = false;

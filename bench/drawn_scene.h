@@ -22,7 +22,8 @@
 namespace spindrift::bench
 {
 
-/// A shipped scene, or one made up, with backend and renderer, stage by stage, for measuring. Makes its own headless context.
+/// A shipped scene, or one made up, with backend and renderer, stage by stage, for measuring. Makes its own
+/// headless context.
 class DrawnScene
 {
   public:

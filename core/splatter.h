@@ -63,7 +63,7 @@ struct SplatJob
     SplatAir air;
     const Lamp<float>* lamps = nullptr;
     std::size_t lamp_count = 0;
-    LampShadows shadows;  ///< of the first of them
+    LampShadows shadows;    ///< of the first of them
     LampClusters clusters;  ///< which of the lamps count where
     CrystalTexels crystals;
     FlakeView flakes{};
