@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/drawn_row.h"
 #include "core/bloom.h"
 #include "core/tone.h"
 #include "gl/bloom_pass.h"
@@ -200,23 +201,10 @@ bool register_rows()
 {
     for (const auto& [width, height] : {std::array{1280, 720}, std::array{1920, 1080}})
         for (const Method& method : kMethods)
-            benchmark::RegisterBenchmark((std::string("bloom/") + method.name + "/" + std::to_string(width) +
-                                          "x" + std::to_string(height))
-                                             .c_str(),
-                                         [=, width = width, height = height](benchmark::State& state)
-                                         {
-                                             try
-                                             {
-                                                 bloom_row(state, method.method, width, height);
-                                             }
-                                             catch (const std::exception& error)
-                                             {
-                                                 state.SkipWithError(error.what());
-                                             }
-                                         })
-                ->UseManualTime()
-                ->Iterations(1)
-                ->Unit(benchmark::kMillisecond);
+            add_drawn_row(std::string("bloom/") + method.name + "/" + std::to_string(width) + "x" +
+                              std::to_string(height),
+                          [=, width = width, height = height](benchmark::State& state)
+                          { bloom_row(state, method.method, width, height); });
     return true;
 }
 

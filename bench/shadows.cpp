@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/drawn_row.h"
 #include "core/shadow.h"
 #include "cpu/cpu_backend.h"
 #include "cpu/wind_projection.h"
@@ -159,12 +160,8 @@ bool register_rows()
 {
     for (const auto& [slices, px] : {std::array{1, 128}, std::array{4, 128}, std::array{8, 128},
                                      std::array{32, 128}, std::array{8, 32}, std::array{8, 256}})
-        benchmark::RegisterBenchmark(
-            ("snow-shade/" + std::to_string(slices) + "/" + std::to_string(px)).c_str(),
-            [slices = slices, px = px](benchmark::State& state) { snow_shade(state, slices, px); })
-            ->UseManualTime()
-            ->Iterations(1)
-            ->Unit(benchmark::kMillisecond);
+        add_drawn_row("snow-shade/" + std::to_string(slices) + "/" + std::to_string(px),
+                      [slices = slices, px = px](benchmark::State& state) { snow_shade(state, slices, px); });
     return true;
 }
 

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/drawn_row.h"
 #include "cpu/cpu_backend.h"
 #include "cpu/tile_splatter.h"
 #include "cpu/wind_projection.h"
@@ -279,33 +280,13 @@ void empty_scene(benchmark::State& state)
     state.SetLabel(context->info().renderer);
 }
 
-template <class Body>
-void add(const std::string& name, const Body& body)
-{
-    benchmark::RegisterBenchmark(name.c_str(),
-                                 [=](benchmark::State& state)
-                                 {
-                                     try
-                                     {
-                                         body(state);
-                                     }
-                                     catch (const std::exception& error)
-                                     {
-                                         state.SkipWithError(error.what());
-                                     }
-                                 })
-        ->UseManualTime()
-        ->Iterations(1)
-        ->Unit(benchmark::kMillisecond);
-}
-
 bool register_rows()
 {
     for (const char* scene : {"calm", "night", "whiteout", "empty"})
         for (const Skip& skip : skips())
-            add(std::string("skip/") + scene + "/" + skip.name,
-                [scene, &skip](benchmark::State& state) { saving(state, scene, skip); });
-    add("skip/empty/clear-and-read", empty_scene);
+            add_drawn_row(std::string("skip/") + scene + "/" + skip.name,
+                          [scene, &skip](benchmark::State& state) { saving(state, scene, skip); });
+    add_drawn_row("skip/empty/clear-and-read", empty_scene);
     return true;
 }
 

@@ -42,11 +42,6 @@ inline void spread_maximum(std::vector<float>& values, std::size_t before, std::
         }
 }
 
-}  // namespace detail
-
-namespace detail
-{
-
 /// The most that gusts and vehicles add to the wind of a grid, m/s: three times the root mean square of gusts
 /// where they are strongest, and the fastest vehicle.
 inline float fastest_disturbance(const Wind& wind)

@@ -71,12 +71,17 @@ HeldWorld::HeldWorld(const World& world) : data_(without_cells(world)), near_wal
         throw Error(fmt::format("no memory for a wind grid of {} MB; use a coarser one", bytes >> 20));
     cells_ = std::unique_ptr<void, Unmap>(p, Unmap{bytes});
     ask_for_huge_pages(p, bytes);
-    std::memcpy(p, world.wind.cells.data(), bytes);
     const Wind& wind = world.wind;
+    if (wind.changes())
+    {
+        states_ = spread_states(world, times_s_);
+        std::memcpy(p, states_.data(), bytes);
+        prepare_to_blow();
+        return;
+    }
+    std::memcpy(p, wind.cells.data(), bytes);
     if (wind.turbulent)
         spread_gradients(static_cast<WindCell*>(p), wind.nx, wind.ny, wind.nz, wind.cell_m, world.step_s);
-    states_ = spread_states(world, times_s_);
-    if (wind.changes()) prepare_to_blow();
 }
 
 void HeldWorld::prepare_to_blow()

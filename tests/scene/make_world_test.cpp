@@ -238,6 +238,51 @@ TEST(VehicleAt, IsLinearBetweenItsKeys)
     EXPECT_FLOAT_EQ(vehicle_at(vehicle, domain, 5).x, 15);
 }
 
+TEST(MakeWorld, PutsGustsAndVehiclesOnTheGridOfTheWind)
+{
+    const std::string text = R"([domain]
+min_m = [100, 0, 0]
+max_m = [140, 40, 20]
+[particles]
+capacity = 10
+[wind]
+source = "log"
+speed_m_s = 6
+around_solids = true
+[wind.gusts]
+speed_m_s = 2
+length_m = 30
+seed = 9
+[[vehicle]]
+name = "truck"
+body_m = [8, 2.5, 3]
+[[vehicle.key]]
+position_m = [110, 20, 0]
+[[vehicle.key]]
+time_s = 2
+position_m = [130, 20, 0]
+[[box]]
+min_m = [118, 18, 0]
+max_m = [122, 22, 6]
+[[camera.key]]
+eye_m = [0, -10, 2]
+look_at_m = [5, 5, 2]
+)";
+    const Wind wind = world_of(parse_scene(text, "s.toml")).wind;
+    EXPECT_FLOAT_EQ(wind.gusts.speed_m_s, 2);
+    EXPECT_FLOAT_EQ(wind.gusts.length_m, 30);
+    EXPECT_EQ(wind.gusts.seed, 9U);
+    EXPECT_NEAR(wind.gusts.carried_m_s.x, 6, 1) << "the mean at the reference height";
+    ASSERT_EQ(wind.bodies.size(), 1U);
+    EXPECT_FLOAT_EQ(wind.bodies[0].path.keys[1].position_m.x, 30) << "local frame";
+    EXPECT_FLOAT_EQ(wind.bodies[0].size_m.y, 2.5F);
+    ASSERT_EQ(wind.gust_share.size(), wind.cells.size());
+    const GridSize n{wind.nx, wind.ny, wind.nz};
+    EXPECT_EQ(wind.gust_share[n.index(10, 10, 0)], 0) << "in the house";
+    EXPECT_GT(wind.gust_share[n.index(10, 10, 6)], wind.gust_share[n.index(10, 8, 1)]) << "beside a wall";
+    EXPECT_TRUE(wind.changes());
+}
+
 TEST(MakeWorld, ReadsARealWindField)
 {
     const auto winds = optional_data("qes/TwoBuildings_windsWk.nc");

@@ -9,6 +9,8 @@
 #include <functional>
 
 #include "core/error.h"
+#include "cpu/wind_projection.h"
+#include "scene/make_world.h"
 #include "scene/wind_file.h"
 #include "tests/scene/temporary_folder.h"
 
@@ -154,6 +156,30 @@ TEST_F(QuicFilesTest, CountsTimesFromTheFirstInSeconds)
         EXPECT_NEAR(slices[t].wind.u[0], u(0, 0) / (1 + t), 1e-4);
         EXPECT_EQ(slices[t].stress.size(), slices[0].stress.size());
     }
+}
+
+TEST_F(QuicFilesTest, BecomeAWindThatChangesAndIsBelievedOnlyWhereAsked)
+{
+    write(velocities(2), kinds());
+    Scene scene;
+    scene.domain.max_m = {kNx * kCell_m, kNy * kCell_m, kNz * kCell_m};
+    scene.capacity = 10;
+    scene.camera.keys = {{0, {0, -10, 2}, {0, 0, 2}}};
+    scene.wind.source = WindSource::file;
+    scene.wind.winds_file = folder / "QU_velocity.dat";
+    scene.wind.turbulence_file = folder / "QP_turbfield.dat";
+    const auto world = [&] { return make_world(scene, read_geometry(scene), cpu::project_wind()); };
+    scene.wind.project = false;
+    const Wind believed = world().wind;
+    ASSERT_EQ(believed.later.size(), 1U);
+    EXPECT_DOUBLE_EQ(believed.later[0].time_s, 1800);
+    const std::size_t i = GridSize{kNx, kNy, kNz}.index(0, 0, 2);
+    const auto of_file = static_cast<float>(0.75 * u(0, 2) + 0.25 * u(1, 2));  // its two faces
+    EXPECT_NEAR(believed.cells[i].u, of_file, 1e-4);
+    EXPECT_NEAR(believed.later[0].cells[i].u, 0.5F * of_file, 1e-4);
+    EXPECT_GT(believed.cells[i].s11, 0);
+    scene.wind.project = true;
+    EXPECT_GT(std::abs(world().wind.cells[i].u - of_file), 0.01F) << "the file's wind has divergence";
 }
 
 TEST_F(QuicFilesTest, SaysWhatIsWrongAndWhere)
