@@ -53,12 +53,13 @@ image::Image8 Outputs::display_of(gl::Renderer& renderer) const
     return image::side_by_side(renderer.read_display(), picture);
 }
 
-void Outputs::add(gl::Renderer& renderer, StageLog& log)
+void Outputs::give(gl::Renderer& renderer, StageLog& log, bool last_only)
 {
     std::optional<image::Image> linear;
     std::optional<image::Image8> display;
     for (const auto& writer : writers_)
     {
+        if (writer->keeps_last_only() != last_only) continue;
         if (writer->wants_linear())
         {
             const image::Image& picture = once(linear, log, [&] { return renderer.read_linear(); });
@@ -74,9 +75,16 @@ void Outputs::add(gl::Renderer& renderer, StageLog& log)
     }
 }
 
-void Outputs::finish(StageLog& log)
+void Outputs::add(gl::Renderer& renderer, StageLog& log)
+{
+    give(renderer, log, false);
+    drawn_ = true;
+}
+
+void Outputs::finish(gl::Renderer& renderer, StageLog& log)
 {
     if (writers_.empty()) return;
+    if (drawn_) give(renderer, log, true);
     const StageTimer timer(log, "finish files");
     for (const auto& writer : writers_) writer->finish();
 }

@@ -21,21 +21,26 @@ enum class Beside
 };
 
 /// The picture files of a run: one simulation may feed several. A frame is read back at most once in each of
-/// the two forms.
+/// the two forms, and not at all where only the last frame is wanted.
 class Outputs
 {
   public:
     /// Opens every output. Throws Error for one that cannot be written, before anything is simulated.
     Outputs(const std::vector<std::string>& patterns, const scene::RenderSettings& render, Beside beside);
 
+    /// Takes the frame that the renderer has drawn.
     void add(gl::Renderer& renderer, StageLog& log);
-    void finish(StageLog& log);
+    /// Completes the files; the renderer still holds the last frame, if one was drawn.
+    void finish(gl::Renderer& renderer, StageLog& log);
     bool empty() const { return writers_.empty(); }
 
   private:
     image::Image8 display_of(gl::Renderer& renderer) const;
+    /// Gives the renderer's picture to the writers that keep the last frame only, or to the others.
+    void give(gl::Renderer& renderer, StageLog& log, bool last_only);
 
     Beside beside_;
+    bool drawn_ = false;
     std::vector<std::unique_ptr<image::FrameWriter>> writers_;
 };
 

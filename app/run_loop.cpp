@@ -122,7 +122,7 @@ void draw_headless(RunState& run, Outputs& outputs)
 
     warm_up(run, *simulator, clock.steps_before(0));
     draw_frames(run, *simulator, drawer, clock, outputs);
-    outputs.finish(run.log);
+    outputs.finish(drawer.renderer(), run.log);
     run.report.passes = drawer.plans().passes();
     run.report.flakes = {drawer.sort(), drawer.drawn(), drawer.culled()};
     run.report.gl_errors = gl::Context::debug_errors();

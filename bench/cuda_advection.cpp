@@ -47,10 +47,12 @@ class Runner
     std::unique_ptr<Backend> backend_;
 };
 
-/// The kernels one by one, each timed.
-void advection(benchmark::State& state, std::uint64_t flakes, bool turbulent)
+/// The kernels one by one, each timed; the flakes as they came, or re-ordered by cell every so many steps.
+void advection(benchmark::State& state, World (*box)(std::uint64_t, bool), std::uint64_t flakes,
+               bool turbulent, std::uint32_t interval)
 {
-    Runner runner(windy_box(flakes, turbulent), {gpu::StepGraph::off, 0});
+    Runner runner(box(flakes, turbulent), {gpu::StepGraph::off, interval});
+    for (std::uint32_t i = 0; i < interval; ++i) runner.step();
     DeviceCopy state_copy(flakes * kStateBytesPerFlake);
     std::vector<double> advect, whole, copy, over_copy;
     for (auto _ : state)
@@ -115,7 +117,13 @@ const int kRegistered = []
     {
         const std::string size = std::string("advect/128x128x64/") + crowd + "/";
         for (const bool turbulent : {true, false})
-            add_row(size + (turbulent ? "turbulent" : "smooth") + "/cuda", 31, advection, flakes, turbulent);
+        {
+            const std::string row = std::string(turbulent ? "turbulent" : "smooth") + "/cuda";
+            add_row(size + row, 31, advection, windy_box, flakes, turbulent, 0U);
+            add_row(size + row + "/reorder-16", 32, advection, windy_box, flakes, turbulent, 16U);
+            add_row(std::string("advect/profile/") + crowd + "/" + row, 31, advection, profile_box, flakes,
+                    turbulent, 0U);
+        }
         const std::string steps = size + "turbulent/cuda/step/";
         add_row(steps + "kernel-by-kernel", 31, whole_steps, flakes, gpu::StepGraph::off, 0U);
         add_row(steps + "graph", 31, whole_steps, flakes, gpu::StepGraph::on, 0U);

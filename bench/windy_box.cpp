@@ -25,17 +25,28 @@ WindCell cell_at(float x, float y, float z)
     return c;
 }
 
-}  // namespace
-
-World windy_box(std::uint64_t flakes, bool turbulent)
+World box_of_flakes(std::uint64_t flakes, bool turbulent)
 {
     World w;
     w.size_m = {128 * kCell, 128 * kCell, 64 * kCell};
     w.on_leave = OnLeave::wrap;
     w.capacity = flakes;
     w.has_ground = false;
-    w.wind.kind = WindKind::grid;
     w.wind.turbulent = turbulent;
+    Emitter e;
+    e.shape = EmitterShape::box;
+    e.b = w.size_m;
+    e.burst = flakes;
+    w.emitters.push_back(e);
+    return w;
+}
+
+}  // namespace
+
+World windy_box(std::uint64_t flakes, bool turbulent)
+{
+    World w = box_of_flakes(flakes, turbulent);
+    w.wind.kind = WindKind::grid;
     w.wind.nx = 128, w.wind.ny = 128, w.wind.nz = 64;
     w.wind.origin_m = {kCell / 2, kCell / 2, kCell / 2};
     w.wind.cell_m = {kCell, kCell, kCell};
@@ -45,11 +56,13 @@ World windy_box(std::uint64_t flakes, bool turbulent)
                 w.wind.cells.push_back(cell_at(kCell * (static_cast<float>(x) + 0.5F),
                                                kCell * (static_cast<float>(y) + 0.5F),
                                                kCell * (static_cast<float>(z) + 0.5F)));
-    Emitter e;
-    e.shape = EmitterShape::box;
-    e.b = w.size_m;
-    e.burst = flakes;
-    w.emitters.push_back(e);
+    return w;
+}
+
+World profile_box(std::uint64_t flakes, bool turbulent)
+{
+    World w = box_of_flakes(flakes, turbulent);
+    w.wind.kind = WindKind::logarithmic;
     return w;
 }
 

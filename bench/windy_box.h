@@ -12,4 +12,7 @@ namespace spindrift::bench
 /// all emitted in the first step; they wrap and meet nothing.
 World windy_box(std::uint64_t flakes, bool turbulent);
 
+/// The same flakes in the logarithmic profile of a surface layer, of which there is nothing to read.
+World profile_box(std::uint64_t flakes, bool turbulent);
+
 }  // namespace spindrift::bench

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "core/encounter.h"
 #include "core/flake.h"
@@ -54,10 +55,17 @@ struct NothingMeanwhile
     SPINDRIFT_HD void quarter(int) const {}
 };
 
+/// In place of a Resolver: a flake that may meet something is left as it was, for others to move, and the
+/// Tally is told by left_over(slot). So a device moves most flakes without the registers of encounters
+/// (docs/decisions/031-free-flakes-first.md).
+struct OnlyFreeFlakes
+{
+};
+
 /// Moves one pack of flakes by one step: wind, turbulence, settling, slip, and what stands in the way.
-/// R: float or a SIMD pack of float. Resolver: EncounterResolver, or one that calls it out of line. Wind:
-/// UniformWind, LogWind or GridWind. All variants give the same bits. Scheme: docs/physics.md "Turbulence",
-/// docs/decisions/006-one-relaxation-two-samples.md.
+/// R: float or a SIMD pack of float. Resolver: EncounterResolver, one that calls it out of line, or for float
+/// OnlyFreeFlakes. Wind: UniformWind, LogWind or GridWind. All variants give the same bits. Scheme:
+/// docs/physics.md "Turbulence", docs/decisions/006-one-relaxation-two-samples.md.
 template <class R, class WindField, bool Turbulent, class Resolver = EncounterResolver>
 struct FlakeAdvector
 {
@@ -65,6 +73,8 @@ struct FlakeAdvector
     using UInt = UIntOf<R>;
     using Mask = MaskOf<R>;
     static constexpr int width = NumberTraits<R>::width;
+    static constexpr bool kOnlyFree = std::is_same_v<Resolver, OnlyFreeFlakes>;
+    static_assert(!kOnlyFree || width == 1, "a pack is moved as a whole");
 
     StepParams step;
     WindField wind;
@@ -108,10 +118,12 @@ struct FlakeAdvector
             meanwhile.quarter(1);
             Air<R> air{};
             air.mean = wind.mean(p.x);
-            flow(p, air, R(step.dt_s), alive, alive, 0, tally);
+            alive = flow(p, air, R(step.dt_s), alive, alive, 0, tally);
             meanwhile.quarter(2);
             meanwhile.quarter(3);
         }
+        if constexpr (kOnlyFree)
+            if (!alive) return tally.left_over(first);
         store_pack(first, p);
     }
 
@@ -166,6 +178,12 @@ struct FlakeAdvector
     SPINDRIFT_HD Mask flow(Pack& p, Air<R>& air, const R& h, const Mask& moving, Mask alive,
                            std::uint32_t substep, Tally& tally) const
     {
+        if constexpr (kOnlyFree)
+        {
+            if (step.near_walls && time_to_wall(p, air, h) < h) return false;
+            const auto index = step.near_walls ? substep * static_cast<std::uint32_t>(kMostPieces) : substep;
+            return arrive(p, move(p, air, h, index), moving, alive, index, tally);
+        }
         if (!step.near_walls) return arrive(p, move(p, air, h, substep), moving, alive, substep, tally);
         R left = h;
         for (int piece = 0; piece < kMostPieces; ++piece)
@@ -304,8 +322,13 @@ struct FlakeAdvector
         p.slip = select(moving, m.slip, p.slip);
         const Mask meets = moving && around.may_meet(from, m.path, p.state);
         if (none(meets)) return alive;
-        meet(mask_bits(meets), from, p, m, substep, tally);
-        return alive && (p.state & UInt(0xFFU)) == UInt(0U);
+        if constexpr (kOnlyFree)
+            return false;
+        else
+        {
+            meet(mask_bits(meets), from, p, m, substep, tally);
+            return alive && (p.state & UInt(0xFFU)) == UInt(0U);
+        }
     }
 
     SPINDRIFT_HD static int lowest_lane(std::uint32_t lanes)

@@ -14,6 +14,22 @@
 namespace spindrift::gpu
 {
 
+/// Waits for what stands in the legacy default stream, since Stream does not. A fill is not done when the
+/// call that queued it returns, nor is a copy from memory that is not page-locked.
+inline void wait_for_default_stream()
+{
+    check(cudaStreamSynchronize(nullptr), "cudaStreamSynchronize");
+}
+
+/// Copies from any host memory and waits until the bytes are there.
+template <class T>
+void copy_to_device_now(T* device, const T* host, std::size_t count)
+{
+    if (count == 0) return;
+    check(cudaMemcpy(device, host, count * sizeof(T), cudaMemcpyHostToDevice), "cudaMemcpy to the device");
+    wait_for_default_stream();
+}
+
 /// Owns device memory for `size` elements; its contents are undefined at first. Throws Error, with the size,
 /// if the device has not got it. Allocate at start, never in a step.
 template <class T>
@@ -32,8 +48,7 @@ class DeviceBuffer
     /// Waits until the copy is made.
     explicit DeviceBuffer(const std::vector<T>& from) : DeviceBuffer(from.size())
     {
-        if (size_ > 0)
-            check(cudaMemcpy(data_, from.data(), size_ * sizeof(T), cudaMemcpyHostToDevice), "cudaMemcpy");
+        copy_to_device_now(data_, from.data(), size_);
     }
     ~DeviceBuffer() { cudaFree(data_); }
     DeviceBuffer(DeviceBuffer&& other) noexcept
@@ -45,6 +60,14 @@ class DeviceBuffer
         std::swap(data_, other.data_);
         std::swap(size_, other.size_);
         return *this;
+    }
+
+    /// Gives every byte this value and waits until they have it.
+    void fill_now(int byte)
+    {
+        if (size_ == 0) return;
+        check(cudaMemset(data_, byte, bytes()), "cudaMemset");
+        wait_for_default_stream();
     }
 
     T* data() const { return data_; }  ///< device address

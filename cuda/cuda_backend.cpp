@@ -170,7 +170,8 @@ void CudaBackend::queue_step(Behind behind)
     rearrange_.close_holes(stream_, control(), at, selection_.get(), sort_.ranks());
     emit(stream_, world_.step(), job);
     mark(0);
-    advect(stream_, world_.step(), job);
+    // the draw list is made anew before it is drawn
+    advect(stream_, world_.step(), job, reinterpret_cast<std::uint32_t*>(at.draw_list.pairs));
     mark(1);
     end_step(stream_, world_.step(), behind == Behind::reorder ? Closing::always : Closing::if_many);
     if (behind == Behind::reorder)

@@ -21,8 +21,8 @@ DeviceFlakes::DeviceFlakes(std::size_t capacity)
     : capacity_(capacity), stride_(whole_lines(capacity)), words_(kArrays * stride_), pairs_(2 * stride_)
 {
     // Whoever reads a slot that nobody wrote must not meet a NaN.
-    if (words_.size() > 0) check(cudaMemset(words_.data(), 0, words_.bytes()), "cudaMemset");
-    if (pairs_.size() > 0) check(cudaMemset(pairs_.data(), 0, pairs_.bytes()), "cudaMemset");
+    words_.fill_now(0);
+    pairs_.fill_now(0);
 }
 
 FlakeAddresses DeviceFlakes::map(StreamRef)

@@ -20,7 +20,7 @@ struct SmoothFromZero
 DeviceBuffer<float> zeros(std::size_t n)
 {
     DeviceBuffer<float> buffer(n);
-    check(cudaMemset(buffer.data(), 0, buffer.bytes()), "cudaMemset");
+    buffer.fill_now(0);
     return buffer;
 }
 

@@ -21,6 +21,7 @@ struct StepControl
     std::uint32_t made = 0;        ///< flakes of the step at hand …
     std::uint32_t first_slot = 0;  ///< … the slot of the first of them …
     std::uint32_t first_id = 0;    ///< … and its serial number
+    std::uint32_t left_over = 0;   ///< flakes of the step at hand that may meet something
     std::uint32_t closing = 0;     ///< slots whose holes are being closed; 0: there is no need
     std::uint32_t kept = 0;        ///< of these live
     std::uint32_t visible = 0;     ///< flakes of the newest draw list

@@ -76,6 +76,7 @@ struct ShareOut
     __device__ void operator()() const
     {
         StepControl& c = *step.control;
+        c.left_over = 0;
         c.first_slot = static_cast<std::uint32_t>(c.state.used);
         c.first_id = static_cast<std::uint32_t>(c.state.next_id);
         const EmissionLedger::Share share = step.ledger.share_out(c.state.step, step.capacity - c.state.used);
@@ -120,21 +121,89 @@ struct Advect
     Surroundings around;
     FlakeView flakes;
 
-    __device__ void operator()(std::size_t i, const BlockTally& tally) const
+    template <class Resolver, class Tally>
+    __device__ void with(std::size_t i, Tally& tally) const
     {
-        const FlakeAdvector<float, WindField, Turbulent> advector{now(step, *control), wind, fall_speed,
-                                                                  around, flakes};
+        const FlakeAdvector<float, WindField, Turbulent, Resolver> advector{now(step, *control), wind,
+                                                                            fall_speed, around, flakes};
         advector(i, tally);
     }
 };
 
+/// Notes whose flake it was that was left over.
+struct LeftOver
+{
+    bool mine = false;
+    __device__ void left_over(std::size_t) { mine = true; }
+};
+
+/// Moves the flakes of all slots that surely meet nothing, and lists the others.
+template <class Advector>
+struct AdvectFree
+{
+    Advector advect;
+    StepControl* control;
+    std::uint32_t* others;
+
+    /// 80 registers a thread.
+    static constexpr unsigned kLeastResidentBlocks = 3;
+
+    __device__ void operator()() const
+    {
+        const std::size_t n = control->used;
+        const std::size_t stride = std::size_t{gridDim.x} * blockDim.x;
+        for (std::size_t first = std::size_t{blockIdx.x} * blockDim.x; first < n; first += stride)
+        {
+            const std::size_t i = first + threadIdx.x;
+            LeftOver left_over;
+            if (i < n) advect.template with<OnlyFreeFlakes>(i, left_over);
+            list(i, left_over.mine);
+        }
+    }
+
+  private:
+    /// Whole warps come here; one addition for each that has something to list.
+    __device__ void list(std::size_t i, bool mine) const
+    {
+        constexpr unsigned kAll = 0xFFFFFFFFU;
+        const unsigned lanes = __ballot_sync(kAll, mine);
+        if (lanes == 0) return;
+        const unsigned lane = threadIdx.x % 32;
+        std::uint32_t start = 0;
+        if (lane == 0) start = atomicAdd(&control->left_over, static_cast<std::uint32_t>(__popc(lanes)));
+        start = __shfl_sync(kAll, start, 0);
+        if (mine)
+            others[start + static_cast<std::uint32_t>(__popc(lanes & ((1U << lane) - 1)))] =
+                static_cast<std::uint32_t>(i);
+    }
+};
+
+/// Moves flake k of those that were listed.
+template <class Advector>
+struct AdvectOthers
+{
+    Advector advect;
+    const std::uint32_t* others;
+
+    __device__ void operator()(std::size_t k, const BlockTally& tally) const
+    {
+        advect.template with<EncounterResolver>(others[k], tally);
+    }
+};
+
 template <class WindField>
-void advect_in(StreamRef stream, const StepAddresses& step, const AdvectJob& job, const WindField& wind)
+void advect_in(StreamRef stream, const StepAddresses& step, const AdvectJob& job, const WindField& wind,
+               std::uint32_t* list)
 {
     Surroundings around = job.around;
     around.regions = step.regions_after;
-    const auto go = [&](const auto& advector)
-    { launch_tallied(stream, "advect", &step.control->used, step, advector); };
+    const auto go = [&]<class Advector>(const Advector& advector)
+    {
+        launch_blocks(stream, "advect", blocks_for(step.capacity), kBlockThreads,
+                      AdvectFree<Advector>{advector, step.control, list});
+        launch_tallied(stream, "advect among obstacles", &step.control->left_over, step,
+                       AdvectOthers<Advector>{advector, list});
+    };
     if (job.turbulent)
         go(Advect<WindField, true>{step.control, job.step, wind, job.fall_speed, around, job.flakes});
     else
@@ -186,16 +255,16 @@ void emit(StreamRef stream, const StepAddresses& step, const AdvectJob& job)
     launch_tallied(stream, "emit", &step.control->made, step, Emit{step, at_start});
 }
 
-void advect(StreamRef stream, const StepAddresses& step, const AdvectJob& job)
+void advect(StreamRef stream, const StepAddresses& step, const AdvectJob& job, std::uint32_t* list)
 {
     switch (job.wind_kind)
     {
         case WindKind::uniform:
-            return advect_in(stream, step, job, job.uniform);
+            return advect_in(stream, step, job, job.uniform, list);
         case WindKind::logarithmic:
-            return advect_in(stream, step, job, job.logarithmic);
+            return advect_in(stream, step, job, job.logarithmic, list);
         case WindKind::grid:
-            return advect_in(stream, step, job, job.grid);
+            return advect_in(stream, step, job, job.grid, list);
     }
 }
 

@@ -17,7 +17,9 @@ void begin_step(StreamRef stream, const StepAddresses& step);
 void blow(StreamRef stream, const StepAddresses& step);
 /// Shares out and makes the flakes of the step.
 void emit(StreamRef stream, const StepAddresses& step, const AdvectJob& job);
-void advect(StreamRef stream, const StepAddresses& step, const AdvectJob& job);
+/// First the flakes that surely meet nothing, then the others, which `list` (a word a slot; overwritten)
+/// names.
+void advect(StreamRef stream, const StepAddresses& step, const AdvectJob& job, std::uint32_t* list);
 
 enum class Closing
 {

@@ -82,6 +82,7 @@ class PictureWriter final : public FrameWriter
     }
 
     bool wants_linear() const override { return std::is_same_v<Picture, Image>; }
+    bool keeps_last_only() const override { return !name_; }
     void add(const Image& linear) override { take(linear); }
     void add(const Image8& display) override { take(display); }
 

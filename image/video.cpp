@@ -146,6 +146,7 @@ class VideoWriter final : public FrameWriter
     }
 
     bool wants_linear() const override { return false; }
+    bool keeps_last_only() const override { return false; }
     void add(const Image&) override { throw std::logic_error("a video takes display pictures"); }
 
     void add(const Image8& picture) override

@@ -33,7 +33,8 @@ class FrameWriter
 {
   public:
     virtual ~FrameWriter() = default;
-    virtual bool wants_linear() const = 0;  ///< true: give add(Image), false: give add(Image8)
+    virtual bool wants_linear() const = 0;     ///< true: give add(Image), false: give add(Image8)
+    virtual bool keeps_last_only() const = 0;  ///< of all frames added only the last becomes a file
     virtual void add(const Image& linear) = 0;
     virtual void add(const Image8& display) = 0;
     /// Completes the file(s) with what was added so far, also after an interrupt.

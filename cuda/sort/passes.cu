@@ -98,7 +98,7 @@ class PassSort final : public DeviceSort
           counts_(2),
           working_(working_bytes(capacity))
     {
-        check(cudaMemset(rank_.data(), 0xFF, rank_.bytes()), "cudaMemset");
+        rank_.fill_now(0xFF);
     }
 
     std::uint64_t* sort(StreamRef stream, const SortJob& job) override

@@ -49,8 +49,7 @@ TYPED_TEST_SUITE(EveryDrawnMemory, Memories);
 template <class T>
 void put(T* device, const std::vector<T>& host)
 {
-    if (!host.empty())
-        check(cudaMemcpy(device, host.data(), host.size() * sizeof(T), cudaMemcpyHostToDevice), "cudaMemcpy");
+    copy_to_device_now(device, host.data(), host.size());
 }
 
 template <class T>

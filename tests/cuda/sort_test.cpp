@@ -57,9 +57,7 @@ class Arrays
         const Stream stream;
         SortJob job{
             pairs_.data() + kMargin, scratch_.data() + kMargin, input.size(), key_bits, passes, start};
-        check(
-            cudaMemcpy(job.pairs, input.data(), input.size() * sizeof(std::uint64_t), cudaMemcpyHostToDevice),
-            "cudaMemcpy");
+        copy_to_device_now(job.pairs, input.data(), input.size());
         const std::uint64_t* const result = sort.sort(stream, job);
         stream.ref().wait();
         EXPECT_TRUE(result == job.pairs || result == job.scratch);

@@ -62,6 +62,7 @@ TEST_F(FrameFiles, SinglePngIsTheLastFrame)
 {
     const auto writer = make_frame_writer(at("a.PNG").string(), 4, 3, 30);
     EXPECT_FALSE(writer->wants_linear());
+    EXPECT_TRUE(writer->keeps_last_only());
     for (int level : {10, 20, 30}) writer->add(grey(4, 3, level));
     EXPECT_THAT(entries(), IsEmpty());
     writer->finish();
@@ -74,6 +75,7 @@ TEST_F(FrameFiles, SequencesNumberFromZero)
     const auto png = make_frame_writer(at("p_%04d.png").string(), 4, 3, 30);
     const auto exr = make_frame_writer(at("e_%d.exr").string(), 4, 3, 30);
     EXPECT_TRUE(exr->wants_linear());
+    EXPECT_FALSE(exr->keeps_last_only());
     for (int i = 0; i < 3; ++i)
     {
         png->add(grey(4, 3, i));

@@ -31,8 +31,7 @@ class CudaRun final : public BackendRun
     void put(float* FlakeView::*array, std::size_t slot, float value) override
     {
         backend_->finish();
-        gpu::check(cudaMemcpy(addresses().flakes.*array + slot, &value, sizeof value, cudaMemcpyHostToDevice),
-                   "cudaMemcpy");
+        gpu::copy_to_device_now(addresses().flakes.*array + slot, &value, 1);
     }
 
   private:

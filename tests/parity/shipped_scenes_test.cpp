@@ -86,7 +86,14 @@ class ShippedScene : public testing::TestWithParam<Case>
 {
 };
 
-/// A thousand steps with few flakes, so that an emulated device is done in seconds.
+/// So few that an emulated device is done in seconds, unless SPINDRIFT_PARITY_PARTICLES asks for more.
+std::uint64_t particles()
+{
+    const char* asked = std::getenv("SPINDRIFT_PARITY_PARTICLES");
+    return asked != nullptr ? std::stoull(asked) : 500;
+}
+
+/// A thousand steps.
 TEST_P(ShippedScene, KeepsTheOraclesHash)
 {
     if (const std::string why = cannot_run_because(); !why.empty())
@@ -97,7 +104,7 @@ TEST_P(ShippedScene, KeepsTheOraclesHash)
     }
     const std::filesystem::path file = SPINDRIFT_SOURCE_DIR "/scenes/" + GetParam().scene + ".toml";
     scene::SceneOverrides overrides;
-    overrides.particles = 500;
+    overrides.particles = particles();
     std::filesystem::path wind_file;
     if (GetParam().scene == "two-blocks")
         overrides.winds_file = overrides.turbulence_file = wind_file = write_wind_file();
