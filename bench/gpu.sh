@@ -5,6 +5,7 @@
 # Environment:
 #   SPINDRIFT_GPU_ARCH=native   CUDA architectures to build for, as CMake takes them
 #   SPINDRIFT_GPU_BUDGET_S=530  seconds for everything; topics for which no time is left are named
+#   SPINDRIFT_GPU_BUILT=COMMIT  build/gpu holds all programs already, built elsewhere from this commit
 #   SPINDRIFT_GPU_SMALL=1       small sizes only, into build/gpu-results/: a rehearsal, its times mean nothing
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -12,6 +13,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 architectures=${SPINDRIFT_GPU_ARCH:-native}
 budget_s=${SPINDRIFT_GPU_BUDGET_S:-530}
 small=${SPINDRIFT_GPU_SMALL:-}
+built=${SPINDRIFT_GPU_BUILT:-}
 build=build/gpu
 results=docs/results
 [[ -z $small ]] || results=build/gpu-results
@@ -28,9 +30,9 @@ card=$(tr '[:upper:] ' '[:lower:]-' <<< "$gpu")
 driver=$(ask_gpu driver_version)
 clocks=$(ask_gpu clocks.max.sm,clocks.max.mem)
 cpu=$(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -1 | plain)
-toolkit=$(nvcc --version | sed -n 's/.*release \([0-9.]*\).*/\1/p')
-commit=$(git rev-parse --short=12 HEAD 2> /dev/null || echo unknown)
-[[ -z $(git status --porcelain 2> /dev/null) ]] || commit+="+changes"
+toolkit=$(nvcc --version 2> /dev/null | sed -n 's/.*release \([0-9.]*\).*/\1/p')
+commit=${built:-$(git rev-parse --short=12 HEAD 2> /dev/null || echo unknown)}
+[[ -n $built || -z $(git status --porcelain 2> /dev/null) ]] || commit+="+changes"
 left_out=()
 
 build_all()
@@ -48,7 +50,10 @@ failed=0
 run_tests()
 {
     say "tests"
-    SPINDRIFT_REQUIRE_CUDA=1 timeout "$(left_s)" ctest --test-dir "$build" -L cuda --output-on-failure > "$build/tests.log" 2>&1 || failed=1
+    local skip='^$'
+    [[ -z $built ]] || skip='^Install'  # builds a program: not on a machine that cannot build this one
+    SPINDRIFT_REQUIRE_CUDA=1 timeout "$(left_s)" ctest --test-dir "$build" -L cuda -E "$skip" -j "$(nproc)" --output-on-failure \
+        > "$build/tests.log" 2>&1 || failed=1
     grep -E '^[0-9]+% tests passed|\*\*\*' "$build/tests.log" || tail -5 "$build/tests.log"
     tests=$(sed -n 's/^\([0-9]*% tests passed.*\)/\1/p' "$build/tests.log" | plain)
 }
@@ -76,6 +81,22 @@ measure()
     fi
 }
 
+# study TOPIC OPTION...: a table of spindrift sorts
+study()
+{
+    local topic=$1
+    say "sorts: $topic"
+    if (($(left_s) < 20)); then
+        left_out+=("$topic: no time left")
+    elif ! timeout "$(left_s)" "$build/spindrift" sorts --backend cuda "${@:2}" --out "$build/$topic.json" > "$build/$topic.log" 2>&1; then
+        left_out+=("$topic: $(tail -1 "$build/$topic.log" | plain)")
+        failed=1
+    else
+        cp "$build/$topic.json" "$results/gpu-$card-$topic.json"
+        cat "$build/$topic.log"
+    fi
+}
+
 # run TOPIC PARTICLES SIZE OPTION...: statistics of a run that draws
 run()
 {
@@ -93,7 +114,7 @@ run()
     fi
 }
 
-build_all
+[[ -n $built ]] || build_all
 say "machine"
 "$build/spindrift" info
 run_tests
@@ -103,7 +124,14 @@ run town-copied 1000000 1280x720 --backend cuda --interop off
 run town-cpu 1000000 1280x720 --backend cpu
 measure advect 80 '^advect/.*/cuda' '^advect/.*/10K/.*/cuda/(iterations|step/kernel|step/graph/(iterations|reorder-16/))'
 measure wind 40 '^wind/.*/cuda' '^wind/size/32K/cuda'
-measure sorts 200 '^sort/(random|camera-sweep)/.*/cuda/' '^sort/(random|camera-sweep)/15K/cuda/'
+if [[ -z $small ]]; then
+    study cliff --sizes 1048576,2097152,2202010,4194304 --patterns random --strategies bitonic,cub-radix,cub-merge --frames 9
+    study scene --scene town --particles 1000000 --frames 9
+    study table-4-1 --table-4-1 --frames 9
+else
+    study cliff --sizes 4096,4301 --patterns random --strategies bitonic,cub-radix,cub-merge --frames 2
+fi
+measure sorts 150 '^sort/(random|camera-sweep)/.*/cuda/' '^sort/(random|camera-sweep)/15K/cuda/'
 
 {
     printf '{\n  "gpu": "%s",\n  "driver": "%s",\n  "max_clocks": "%s",\n  "cuda": "%s",\n' "$gpu" "$driver" "$clocks" "$toolkit"

@@ -27,16 +27,17 @@ __global__ void run_body(Body body)
     body();
 }
 
-/// A body that says how many of its blocks (of kBlockThreads) must fit on a multiprocessor at least: it gets
-/// no more registers than that leaves it.
+/// A body that says how many of its blocks, and of how many threads, must fit on a multiprocessor at least:
+/// it gets no more registers than that leaves it.
 template <class Body>
 concept Crowded = requires
 {
+    Body::kThreads;
     Body::kLeastResidentBlocks;
 };
 
 template <Crowded Body>
-__global__ void __launch_bounds__(kBlockThreads, Body::kLeastResidentBlocks) run_crowded_body(Body body)
+__global__ void __launch_bounds__(Body::kThreads, Body::kLeastResidentBlocks) run_crowded_body(Body body)
 {
     body();
 }
@@ -88,10 +89,9 @@ struct ForEachCounted
     __device__ void operator()() const { ForEachIndex<Function>{*count, function}(); }
 };
 
-inline unsigned blocks_for(std::size_t count)
+inline unsigned blocks_for(std::size_t count, unsigned threads = kBlockThreads)
 {
-    return static_cast<unsigned>(
-        std::min<std::size_t>((count + kBlockThreads - 1) / kBlockThreads, kMostBlocks));
+    return static_cast<unsigned>(std::min<std::size_t>((count + threads - 1) / threads, kMostBlocks));
 }
 
 /// Calls `function(i)` for i in [0, count), in any order.

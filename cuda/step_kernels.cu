@@ -114,6 +114,8 @@ struct Emit
 template <class WindField, bool Turbulent>
 struct Advect
 {
+    static constexpr bool kTurbulent = Turbulent;
+
     const StepControl* control;
     StepParams step;
     WindField wind;
@@ -145,8 +147,9 @@ struct AdvectFree
     StepControl* control;
     std::uint32_t* others;
 
-    /// 80 registers a thread.
-    static constexpr unsigned kLeastResidentBlocks = 3;
+    /// 102 registers a thread in turbulence, 64 without: as many threads as nothing is spilled for.
+    static constexpr unsigned kThreads = 128;
+    static constexpr unsigned kLeastResidentBlocks = Advector::kTurbulent ? 5 : 8;
 
     __device__ void operator()() const
     {
@@ -199,8 +202,9 @@ void advect_in(StreamRef stream, const StepAddresses& step, const AdvectJob& job
     around.regions = step.regions_after;
     const auto go = [&]<class Advector>(const Advector& advector)
     {
-        launch_blocks(stream, "advect", blocks_for(step.capacity), kBlockThreads,
-                      AdvectFree<Advector>{advector, step.control, list});
+        using Free = AdvectFree<Advector>;
+        launch_blocks(stream, "advect", blocks_for(step.capacity, Free::kThreads), Free::kThreads,
+                      Free{advector, step.control, list});
         launch_tallied(stream, "advect among obstacles", &step.control->left_over, step,
                        AdvectOthers<Advector>{advector, list});
     };

@@ -40,6 +40,7 @@ struct ForEachTallied
 
     /// 128 registers a thread: three blocks, 80 registers, would spill a hundred words a flake in the
     /// advection.
+    static constexpr unsigned kThreads = kBlockThreads;
     static constexpr unsigned kLeastResidentBlocks = 2;
 
     __device__ void operator()() const

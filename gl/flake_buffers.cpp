@@ -51,6 +51,7 @@ struct FlakeBuffer
         else if (have)
         {
             glClearNamedBufferData(buffer.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+            glFinish();
             have = glGetError() == GL_NO_ERROR;
         }
         if (!have)

@@ -107,6 +107,7 @@ TYPED_TEST(EveryDrawnMemory, GivesGlWhatTheListNames)
                 for (std::uint32_t slot = 0; slot < used; ++slot) arrays[array].push_back(word(array, slot));
 
             const FlakeAddresses at = memory.map(stream);
+            stream.ref().wait();  // mapped for this stream only
             put(in_scratch ? at.draw_list.scratch : at.draw_list.pairs, pairs);
             put(reinterpret_cast<std::uint32_t*>(at.flakes.x), arrays[0]);
             put(reinterpret_cast<std::uint32_t*>(at.flakes.y), arrays[1]);
@@ -119,7 +120,12 @@ TYPED_TEST(EveryDrawnMemory, GivesGlWhatTheListNames)
             for (std::uint32_t array = 0; array < 4; ++array)
                 for (const std::uint64_t pair : pairs)
                     expected.push_back(word(array, static_cast<std::uint32_t>(pair)));
-            ASSERT_EQ(drawn_words(memory.drawn_from(), list), expected) << capacity << " " << in_scratch;
+            const std::vector<std::uint32_t> drawn = drawn_words(memory.drawn_from(), list);
+            ASSERT_EQ(drawn.size(), expected.size());
+            const auto off = std::ranges::mismatch(drawn, expected);
+            ASSERT_TRUE(off.in1 == drawn.end())
+                << capacity << " flakes, in scratch: " << in_scratch << ", word " << off.in1 - drawn.begin()
+                << " of " << drawn.size() << " is " << *off.in1 << " and not " << *off.in2;
         }
     }
 }

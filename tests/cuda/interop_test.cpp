@@ -195,6 +195,7 @@ TEST_P(InteropFailure, IsTheReasonAndTheCopyTakesOver)
     const auto memory = make_drawn_memory(100, SharingWish::automatic, sharing, calls.calls());
     const Stream stream;
     const FlakeAddresses at = memory->map(stream);
+    stream.ref().wait();  // mapped for this stream only
     const std::array<std::uint64_t, 2> pairs{7, 3};
     const std::array<float, 8> x{0, 1, 2, 3, 4, 5, 6, 7};
     copy_to_device_now(at.draw_list.pairs, pairs.data(), pairs.size());
