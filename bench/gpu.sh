@@ -66,7 +66,7 @@ measure()
     ((seconds < $(left_s))) || seconds=$(left_s)
     local bench=$build/bench/spindrift-bench
     say "bench: $topic"
-    if ! "$bench" --benchmark_list_tests --benchmark_filter="$filter" 2> /dev/null | grep -q .; then
+    if [[ -z $("$bench" --benchmark_list_tests --benchmark_filter="$filter" 2> /dev/null) ]]; then
         left_out+=("$topic: no row matches $filter")
     elif (($(left_s) < 20)); then
         left_out+=("$topic: no time left")
