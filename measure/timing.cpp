@@ -31,6 +31,7 @@ void parallel_copy(void* to, const void* from, std::size_t bytes)
                                  {
                                      const std::size_t begin = std::min(bytes, thread * share);
                                      const std::size_t end = std::min(bytes, begin + share);
+                                     if (begin == end) return;  // of nothing there may be no address
                                      std::memcpy(static_cast<char*>(to) + begin,
                                                  static_cast<const char*>(from) + begin, end - begin);
                                  });

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cstdio>
 #include <sstream>
 #include <string>
@@ -139,15 +140,14 @@ TEST_F(Drawing, StatisticsCountABloomThatFoundNothingAsLeftOut)
         run_command({"run", write("bloom.toml", scene), "--headless", "--frames", "2", "--size", "64x36",
                      "--particles", "500", "--out", in_folder("bloom.png"), "--stats", stats});
     ASSERT_EQ(run.exit_code, 0) << run.error;
-    for (const nlohmann::json& pass : nlohmann::json::parse(read(stats)).at("passes"))
-        if (pass.at("pass") == "bloom")
-        {
-            EXPECT_EQ(pass.at("frames_run"), 0);
-            EXPECT_EQ(pass.at("frames_skipped"), 2);
-            EXPECT_NE(
-                pass.at("skipped_because")[0].get<std::string>().find("nothing in the picture was bright"),
-                std::string::npos);
-        }
+    const nlohmann::json passes = nlohmann::json::parse(read(stats)).at("passes");
+    const auto bloom =
+        std::ranges::find_if(passes, [](const nlohmann::json& pass) { return pass.at("pass") == "bloom"; });
+    ASSERT_NE(bloom, passes.end());
+    EXPECT_EQ(bloom->at("frames_run"), 0);
+    EXPECT_EQ(bloom->at("frames_skipped"), 2);
+    EXPECT_THAT(bloom->at("skipped_because")[0].get<std::string>(),
+                testing::HasSubstr("nothing in the picture was bright"));
 }
 
 TEST_F(Drawing, LogsLuminanceOfPixels)
