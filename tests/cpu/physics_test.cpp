@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/advect.h"
+#include "core/gradient_reach.h"
 #include "core/wind.h"
 #include "worlds.h"
 
@@ -283,6 +284,29 @@ TEST(Turbulence, NeedsTheGradientLimitForThat)
     EXPECT_GT(result.variance_error, 3 * kVarianceMark);
 }
 
+/// Homogeneous air, half of which asks for four sub-steps where the rest takes one: none of it gains flakes.
+TEST(Turbulence, HasNoSeamWhereTwoNumbersOfSubstepsMeet)
+{
+    constexpr double kDt = 0.1, kRate = 10;  // a step is as long as the turbulence's own time
+    World w = open_world(kMixed, {2, 1, 200}, kDt);
+    w.wind = grid_wind(201, 1, 1, {0, 0, 0}, {0.01F, 1, 1},
+                       [](float x, float, float)
+                       {
+                           WindCell c{};
+                           c.s11 = 1;
+                           c.c0_eps = 2 * kRate;
+                           c.gradient = x > 0.5F && x < 1.5F ? 5.9F : 0;
+                           return c;
+                       });
+    ASSERT_EQ(relaxations(w), 1);
+    TestRun run(w, {0, Simd::automatic});
+    run.steps(60);
+    double inside = 0;
+    for (std::size_t i = 0; i < run->slots_used(); ++i)
+        inside += run.flakes.x[i] > 0.5F && run.flakes.x[i] < 1.5F ? 1 : 0;
+    EXPECT_NEAR(inside / kMixed, 0.5, 4 * 0.5 / std::sqrt(static_cast<double>(kMixed)));
+}
+
 TEST(Substeps, FollowGradientAndStepAndAreBounded)
 {
     EXPECT_EQ(substeps(0.0F, 1.0F), 1);
@@ -290,6 +314,34 @@ TEST(Substeps, FollowGradientAndStepAndAreBounded)
     EXPECT_EQ(substeps(1.6F, 0.1F), 2);
     EXPECT_EQ(substeps(10.0F, 0.1F), 7);
     EXPECT_EQ(substeps(1e30F, 1.0F), kMostSubsteps);
+}
+
+TEST(Relaxations, FollowTheSteepestPlaceAndAreBounded)
+{
+    EXPECT_EQ(relaxations(0, 1), 1);
+    EXPECT_EQ(relaxations(5.9, 0.1), 1);
+    EXPECT_EQ(relaxations(6.1, 0.1), 2);
+    EXPECT_EQ(relaxations(1e30, 1), kMostRelaxations);
+    World w = open_world(1, {1, 1, 1}, 1);
+    w.wind = grid_wind(5, 1, 1, {0, 0, 0}, {1, 1, 1},
+                       [](float x, float, float)
+                       {
+                           WindCell c{};
+                           c.gradient = x == 3 ? 1.5F : 0.1F;
+                           return c;
+                       });
+    EXPECT_EQ(relaxations(w), 3);
+    Wind::State later{1.0, w.wind.cells};
+    later.cells[0].gradient = 2;
+    w.wind.later = {later};
+    EXPECT_EQ(relaxations(w), 4) << "at any time";
+    w.wind.turbulent = false;
+    EXPECT_EQ(relaxations(w), 1);
+    w.wind.turbulent = true;
+    w.wind.kind = WindKind::logarithmic;
+    w.wind.friction_velocity_m_s = 2, w.wind.boundary_layer_m = 20;
+    w.size_m.z = 100, w.step_s = 10;
+    EXPECT_EQ(relaxations(w), 9);  // 3/4 u*/zi 2.5 (1.01 / 50)^(-1/4) = 0.497 1/s
 }
 
 }  // namespace
