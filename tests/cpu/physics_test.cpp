@@ -284,29 +284,6 @@ TEST(Turbulence, NeedsTheGradientLimitForThat)
     EXPECT_GT(result.variance_error, 3 * kVarianceMark);
 }
 
-/// Homogeneous air, half of which asks for four sub-steps where the rest takes one: none of it gains flakes.
-TEST(Turbulence, HasNoSeamWhereTwoNumbersOfSubstepsMeet)
-{
-    constexpr double kDt = 0.1, kRate = 10;  // a step is as long as the turbulence's own time
-    World w = open_world(kMixed, {2, 1, 200}, kDt);
-    w.wind = grid_wind(201, 1, 1, {0, 0, 0}, {0.01F, 1, 1},
-                       [](float x, float, float)
-                       {
-                           WindCell c{};
-                           c.s11 = 1;
-                           c.c0_eps = 2 * kRate;
-                           c.gradient = x > 0.5F && x < 1.5F ? 5.9F : 0;
-                           return c;
-                       });
-    ASSERT_EQ(relaxations(w), 1);
-    TestRun run(w, {0, Simd::automatic});
-    run.steps(60);
-    double inside = 0;
-    for (std::size_t i = 0; i < run->slots_used(); ++i)
-        inside += run.flakes.x[i] > 0.5F && run.flakes.x[i] < 1.5F ? 1 : 0;
-    EXPECT_NEAR(inside / kMixed, 0.5, 4 * 0.5 / std::sqrt(static_cast<double>(kMixed)));
-}
-
 TEST(Substeps, FollowGradientAndStepAndAreBounded)
 {
     EXPECT_EQ(substeps(0.0F, 1.0F), 1);
