@@ -35,6 +35,7 @@ struct StepParams
     std::uint64_t seed = 0;
     std::uint32_t number = 0;
     bool inertial = false;       ///< FlakeView::slip is the whole velocity of a flake
+    int relaxations = 1;         ///< in a step, the same for all flakes (core/gradient_reach.h)
     bool near_walls = false;     ///< a step may go farther than a cell of the solids
     bool fine = false;           ///< a step moves by so few last places that rounding needs its dice
     float crossing_squared = 0;  ///< beta^2 of the crossing of trajectories; 0: none
@@ -65,7 +66,7 @@ struct OnlyFreeFlakes
 /// Moves one pack of flakes by one step: wind, turbulence, settling, slip, and what stands in the way.
 /// R: float or a SIMD pack of float. Resolver: EncounterResolver, one that calls it out of line, or for float
 /// OnlyFreeFlakes. Wind: UniformWind, LogWind or GridWind. All variants give the same bits. Scheme:
-/// docs/physics.md "Turbulence", docs/decisions/006-one-relaxation-two-samples.md.
+/// docs/physics.md "Turbulence", docs/decisions/006-one-relaxation-cut-flow.md.
 template <class R, class WindField, bool Turbulent, class Resolver = EncounterResolver>
 struct FlakeAdvector
 {
@@ -94,23 +95,28 @@ struct FlakeAdvector
         Pack p = load_pack(first, state);
         if constexpr (Turbulent)
         {
-            Air<R> air = wind.air(p.x);
-            meanwhile.quarter(1);
-            const Int n = substeps<R>(air.gradient, R(step.dt_s));
-            const R h = R(step.dt_s) / to_real<R>(n);
-            for (int k = 0;; ++k)
+            const R part = R(step.dt_s / static_cast<float>(step.relaxations));
+            for (int r = 0; r < step.relaxations && !none(alive); ++r)
             {
-                const Mask moving = alive && Int(k) < n;
-                if (none(moving)) break;
-                if (k > 0) air = wind.air(p.x);
+                Air<R> air = wind.air(p.x);
+                if (r == 0) meanwhile.quarter(1);
                 const Gaussians<R> noise = gaussians<R>(
-                    step.seed, p.id, step.number, RandomStream::turbulence, static_cast<std::uint32_t>(k));
-                if (k == 0) meanwhile.quarter(2);
-                p.q = select(moving,
-                             relax(air, p.q, relaxation(air, p.fall, h), Vec3<R>{noise.x, noise.y, noise.z}),
-                             p.q);
-                alive = flow(p, air, h, moving, alive, static_cast<std::uint32_t>(k), tally);
-                if (k == 0) meanwhile.quarter(3);
+                    step.seed, p.id, step.number, RandomStream::turbulence, static_cast<std::uint32_t>(r));
+                if (r == 0) meanwhile.quarter(2);
+                p.q = select(
+                    alive, relax(air, p.q, relaxation(air, p.fall, part), Vec3<R>{noise.x, noise.y, noise.z}),
+                    p.q);
+                const Int n = substeps<R>(air.gradient, part);
+                const R h = part / to_real<R>(n);
+                for (int k = 0;; ++k)
+                {
+                    const Mask moving = alive && Int(k) < n;
+                    if (none(moving)) break;
+                    if (k > 0) air = wind.air(p.x);
+                    alive = flow(p, air, h, moving, alive, static_cast<std::uint32_t>(r * kMostSubsteps + k),
+                                 tally);
+                    if (r == 0 && k == 0) meanwhile.quarter(3);
+                }
             }
         }
         else

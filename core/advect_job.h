@@ -25,9 +25,9 @@ struct AdvectJob
     FlakeView flakes{};
 };
 
-/// The job of any step, but for its number, flakes, regions and StepParams::near_walls. `cells` and the
-/// addresses in `solids` are those of the memory that the job will run in; the cells' gradients are spread
-/// (core/gradient_reach.h).
+/// The job of any step, but for its number, flakes, regions, StepParams::near_walls and ::relaxations.
+/// `cells` and the addresses in `solids` are those of the memory that the job will run in; the cells'
+/// gradients are spread (core/gradient_reach.h).
 inline AdvectJob advect_job(const World& world, const WindCell* cells, const Solids& solids)
 {
     const Wind& wind = world.wind;

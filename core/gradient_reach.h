@@ -2,12 +2,15 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
+#include "core/langevin.h"
 #include "core/math.h"
 #include "core/number.h"
 #include "core/turbulence.h"
+#include "core/wind.h"
 #include "core/world.h"
 
 namespace spindrift
@@ -100,11 +103,40 @@ inline bool steps_reach_walls(const World& world)
     return static_cast<double>(fastest) * world.step_s > static_cast<double>(world.voxels.cell_m);
 }
 
-/// Replaces each cell's gradient by the largest within the reach of a flake's turbulence in one step, twice
-/// the largest sigma times dt. How often a step is cut must not change within the reach of a step: at the
-/// seam between two step lengths their errors do not cancel, and the air would not stay well mixed
-/// (docs/decisions/006).
-inline void spread_gradients(WindCell* cells, int nx, int ny, int nz, const Vec3f& cell_m, double step_s)
+/// In how many even parts all flakes relax in a step of h seconds, where the largest |dS/dx| anywhere is
+/// `steepest_per_s`: 1 … kMostRelaxations.
+inline int relaxations(double steepest_per_s, double h)
+{
+    return static_cast<int>(std::clamp(std::ceil(steepest_per_s * h / kRelaxationLimit), 1.0,
+                                       static_cast<double>(kMostRelaxations)));
+}
+
+/// How often flakes relax in a step: the same everywhere and at any time, as the steepest place of the World
+/// asks. Where two numbers met, flakes would gather on one side of the seam, however exact each of the two
+/// (docs/decisions/006-one-relaxation-cut-flow.md).
+inline int relaxations(const World& world)
+{
+    const Wind& wind = world.wind;
+    if (!wind.turbulent) return 1;
+    if (wind.kind != WindKind::grid)  // steepest where the closure ends, or where the world does
+    {
+        const float end =
+            wind.ground_m + wind.boundary_layer_m * static_cast<float>(1 - 1.01 * kLeastLayerShare);
+        Air<float> air;
+        sample_surface_layer(surface_layer(wind), std::min(world.size_m.z, end), air);
+        return relaxations(static_cast<double>(air.gradient), world.step_s);
+    }
+    float steepest = 0;
+    for (const WindCell& c : wind.cells) steepest = std::max(steepest, c.gradient);
+    for (const Wind::State& state : wind.later)
+        for (const WindCell& c : state.cells) steepest = std::max(steepest, c.gradient);
+    return relaxations(static_cast<double>(steepest), world.step_s);
+}
+
+/// Replaces each cell's gradient by the largest within the reach of a flake's turbulence in `time_s`, from
+/// one relaxation to the next: twice the largest sigma times that. So the sub-steps of a flake suit all that
+/// it will meet.
+inline void spread_gradients(WindCell* cells, int nx, int ny, int nz, const Vec3f& cell_m, double time_s)
 {
     const auto x = static_cast<std::size_t>(nx);
     const auto y = static_cast<std::size_t>(ny);
@@ -118,7 +150,7 @@ inline void spread_gradients(WindCell* cells, int nx, int ny, int nz, const Vec3
         variance = std::max({variance, c.s11 * c.s11, c.s21 * c.s21 + c.s22 * c.s22,
                              c.s31 * c.s31 + c.s32 * c.s32 + c.s33 * c.s33});
     }
-    const double reach_m = 2 * sqrt(static_cast<double>(variance)) * step_s;
+    const double reach_m = 2 * sqrt(static_cast<double>(variance)) * time_s;
     const auto reach = [&](float size_m)
     {
         const double in_cells = reach_m / static_cast<double>(size_m) + 0.5;
@@ -138,13 +170,14 @@ inline std::vector<WindCell> spread_states(const World& world, std::vector<doubl
     std::vector<WindCell> all;
     const Wind& wind = world.wind;
     if (!wind.changes()) return all;
+    const double part_s = world.step_s / relaxations(world);
     const auto add = [&](double time_s, const std::vector<WindCell>& cells)
     {
         times_s.push_back(time_s);
         all.insert(all.end(), cells.begin(), cells.end());
         if (wind.turbulent)
             spread_gradients(all.data() + all.size() - cells.size(), wind.nx, wind.ny, wind.nz, wind.cell_m,
-                             world.step_s);
+                             part_s);
     };
     add(0, wind.cells);
     for (const Wind::State& state : wind.later) add(state.time_s, state.cells);

@@ -8,17 +8,24 @@
 namespace spindrift
 {
 
-/// Sub-steps are made so short that h |dS/dx| stays below this (docs/physics.md "Turbulence", table): there
-/// the well-mixed sinusoid is at statistical noise.
+// How a step is cut: docs/decisions/006-one-relaxation-cut-flow.md.
+
+/// Between two relaxations h |dS/dx| stays below this at the steepest place of the world.
+inline constexpr double kRelaxationLimit = 0.6;
+/// Most relaxations in a step.
+inline constexpr int kMostRelaxations = 16;
+
+/// From one relaxation to the next the flow is followed in sub-steps so short that h |dS/dx| stays below
+/// this: there the midpoint rule keeps the well-mixed cases at statistical noise.
 inline constexpr double kGradientLimit = 0.15;
-/// Most sub-steps that one step is cut into.
-inline constexpr int kMostSubsteps = 64;
+/// Most sub-steps between two relaxations.
+inline constexpr int kMostSubsteps = 16;
 
 /// Most pieces in which a sub-step flows near walls.
 inline constexpr int kMostPieces = 16;
 
-/// Into how many sub-steps a step of h seconds is cut where the largest |dS/dx| is `gradient`: 1 …
-/// kMostSubsteps.
+/// In how many sub-steps a flake follows the flow for h seconds where the largest |dS/dx| within its reach is
+/// `gradient`: 1 … kMostSubsteps.
 template <class R>
 SPINDRIFT_HD IntOf<R> substeps(const R& gradient, const R& h)
 {

@@ -61,7 +61,8 @@ void HeldWorld::Unmap::operator()(void* p) const
     munmap(p, bytes);
 }
 
-HeldWorld::HeldWorld(const World& world) : data_(without_cells(world)), near_walls_(steps_reach_walls(world))
+HeldWorld::HeldWorld(const World& world)
+    : data_(without_cells(world)), relaxations_(relaxations(world)), near_walls_(steps_reach_walls(world))
 {
     data_.voxels.clearance.resize(data_.voxels.clearance.size() + kGatherOverrun);
     const std::size_t bytes = world.wind.cells.size() * sizeof(WindCell);
@@ -81,7 +82,8 @@ HeldWorld::HeldWorld(const World& world) : data_(without_cells(world)), near_wal
     }
     std::memcpy(p, wind.cells.data(), bytes);
     if (wind.turbulent)
-        spread_gradients(static_cast<WindCell*>(p), wind.nx, wind.ny, wind.nz, wind.cell_m, world.step_s);
+        spread_gradients(static_cast<WindCell*>(p), wind.nx, wind.ny, wind.nz, wind.cell_m,
+                         world.step_s / relaxations_);
 }
 
 void HeldWorld::prepare_to_blow()
@@ -117,6 +119,7 @@ void HeldWorld::blow(std::uint64_t step)
 AdvectJob HeldWorld::job() const
 {
     AdvectJob job = advect_job(data_, static_cast<const WindCell*>(cells_.get()), solids_view(data_));
+    job.step.relaxations = relaxations_;
     job.step.near_walls = near_walls_;
     return job;
 }

@@ -40,6 +40,7 @@ class HeldWorld
     };
 
     World data_;
+    int relaxations_;
     bool near_walls_;
     std::vector<WindCell> states_;  ///< empty: the wind stays as it is
     std::vector<double> times_s_;

@@ -16,7 +16,8 @@ std::vector<WindCell> spread_cells(const World& world)
     const Wind& wind = world.wind;
     std::vector<WindCell> cells = wind.cells;
     if (wind.turbulent && !cells.empty())
-        spread_gradients(cells.data(), wind.nx, wind.ny, wind.nz, wind.cell_m, world.step_s);
+        spread_gradients(cells.data(), wind.nx, wind.ny, wind.nz, wind.cell_m,
+                         world.step_s / relaxations(world));
     return cells;
 }
 
@@ -63,6 +64,7 @@ DeviceWorld::DeviceWorld(const World& world, const Anchors& anchors)
     solids.voxels.surface = surface_.data();
     solids.surfaces = surfaces_.data();
     job_ = advect_job(world, cells_.data(), solids);
+    job_.step.relaxations = relaxations(world);
     job_.step.near_walls = steps_reach_walls(world);
     step_.control = control_.data();
     step_.ledger = {emitters_.data(), emitter_count(), world.step_s,

@@ -147,7 +147,8 @@ struct AdvectFree
     StepControl* control;
     std::uint32_t* others;
 
-    /// 102 registers a thread in turbulence, 64 without: as many threads as nothing is spilled for.
+    /// 102 registers a thread in turbulence, 64 without: as many threads as (nearly: 16 bytes in a grid's
+    /// turbulence) nothing is spilled for.
     static constexpr unsigned kThreads = 128;
     static constexpr unsigned kLeastResidentBlocks = Advector::kTurbulent ? 5 : 8;
 

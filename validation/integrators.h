@@ -130,25 +130,29 @@ struct ExactOuPlusSum
     }
 };
 
-/// Ours (core/advect.h) without contacts: sub-steps by gradient, Cayley's relaxation, the flow by the
-/// midpoint rule. `noise(k)` is that of sub-step k. tests/accuracy/integrators_test.cpp holds it to the
-/// backend.
+/// Ours (core/advect.h) without contacts: Cayley's relaxation, and the flow by the midpoint rule in sub-steps
+/// by gradient. `noise(r)` is that of relaxation r. tests/accuracy/study_test.cpp holds it to the backend.
 struct Whitened
 {
     template <class R, class Wind, class Noise>
-    static SPINDRIFT_HD void step(const Wind& wind, R dt, const Noise& noise, Vec3<R>& x, Vec3<R>& q)
+    static SPINDRIFT_HD void step(const Wind& wind, R dt, int relaxations, const Noise& noise, Vec3<R>& x,
+                                  Vec3<R>& q)
     {
-        Air<R> air = wind.air(x);
-        const int n = substeps<R>(air.gradient, dt);
-        const R h = dt / R(n), half = R(0.5) * h;
-        for (int k = 0; k < n; ++k)
+        const R part = dt / R(relaxations);
+        for (int r = 0; r < relaxations; ++r)
         {
-            if (k > 0) air = wind.air(x);
-            q = relax(air, q, air.c0_eps * (h * R(0.25)), noise(k));
-            const Air<R> middle = wind.air(x + (air.mean + turbulent_velocity(air, q)) * half);
-            const Vec3<R> q_half = q + air.div_s * half;
-            q = q + middle.div_s * h;
-            x = x + (middle.mean + turbulent_velocity(middle, q_half)) * h;
+            Air<R> air = wind.air(x);
+            q = relax(air, q, air.c0_eps * (part * R(0.25)), noise(r));
+            const int n = substeps<R>(air.gradient, part);
+            const R h = part / R(n), half = R(0.5) * h;
+            for (int k = 0; k < n; ++k)
+            {
+                if (k > 0) air = wind.air(x);
+                const Air<R> middle = wind.air(x + (air.mean + turbulent_velocity(air, q)) * half);
+                const Vec3<R> q_half = q + air.div_s * half;
+                q = q + middle.div_s * h;
+                x = x + (middle.mean + turbulent_velocity(middle, q_half)) * h;
+            }
         }
     }
 };

@@ -52,7 +52,7 @@ std::vector<float> own_numbers(const World& world)
 {
     std::vector<WindCell> cells = world.wind.cells;
     spread_gradients(cells.data(), world.wind.nx, world.wind.ny, world.wind.nz, world.wind.cell_m,
-                     world.step_s);
+                     world.step_s / relaxations(world));
     const float* first = &cells.front().u;
     return {first, first + 16 * cells.size()};
 }
@@ -76,6 +76,7 @@ class Walk
     {
         run_.step();  // emission, and the first step of ours; for the others a slightly later start
         job_ = advect_job(world_, world_.wind.cells.data(), solids_view(world_));
+        job_.step.relaxations = relaxations(world_);
         job_.flakes = run_.flakes();
         region_ = {{0, 0, 0}, world_.size_m, false};
         job_.around.regions = &region_;
@@ -188,7 +189,7 @@ double path_error(const AdvectionSetting& setting)
     {
         walk.step();
         step_in_double(walk.job().grid, walk.numbers().data(), states.data(), ids.data(), kFlakes,
-                       setting.dt_s, walk.world().seed, walk.number());
+                       walk.job().step, setting.dt_s, walk.number());
     }
     std::vector<double> by_id(kFlakes, 0);
     for (std::size_t i = 0; i < kFlakes; ++i) by_id[f.id[i]] = static_cast<double>(f.x[i]);

@@ -20,6 +20,13 @@ SPINDRIFT_HD R wrapped(const R& x)
     return inside >= R(1) ? R(0) : inside;
 }
 
+/// Flakes may go farther in a step than the half period that the grid goes on.
+struct OnePeriod
+{
+    StudyGrid<float, Sampling::trilinear> grid;
+    SPINDRIFT_HD Air<double> air(const Vec3d& x) const { return grid.air(Vec3d{wrapped(x.x), x.y, x.z}); }
+};
+
 template <class Step>
 SPINDRIFT_HD std::size_t step_all(const RivalField& field, const FlakeView& f, std::size_t count, float dt,
                                   std::uint64_t seed, std::uint32_t number)
@@ -94,20 +101,20 @@ void step_on_grid(const AdvectJob& job, const std::uint16_t* numbers, Sampling s
 }
 
 void step_in_double(const GridWind& grid, const float* numbers, double* states, const std::uint32_t* ids,
-                    std::size_t count, double dt, std::uint64_t seed, std::uint32_t number)
+                    std::size_t count, const StepParams& step, double dt, std::uint32_t number)
 {
-    const StudyGrid<float, Sampling::trilinear> wind{grid, numbers};
+    const OnePeriod wind{{grid, numbers}};
     for (std::size_t i = 0; i < count; ++i)
     {
         double* s = states + 6 * i;
         Vec3d x{s[0], s[1], s[2]}, q{s[3], s[4], s[5]};
-        const auto noise = [&](int k)
+        const auto noise = [&](int r)
         {
-            const Gaussians<double> g = gaussians<double>(seed, ids[i], number, RandomStream::turbulence,
-                                                          static_cast<std::uint32_t>(k));
+            const Gaussians<double> g = gaussians<double>(step.seed, ids[i], number, RandomStream::turbulence,
+                                                          static_cast<std::uint32_t>(r));
             return Vec3d{g.x, g.y, g.z};
         };
-        Whitened::step(wind, dt, noise, x, q);
+        Whitened::step(wind, dt, step.relaxations, noise, x, q);
         s[0] = wrapped(x.x), s[1] = x.y, s[2] = x.z;
         s[3] = q.x, s[4] = q.y, s[5] = q.z;
     }

@@ -37,8 +37,9 @@ std::size_t step_rival(Rival rival, const RivalField& field, const FlakeView& fl
 void step_on_grid(const AdvectJob& job, const float* numbers, Sampling sampling, std::size_t count);
 void step_on_grid(const AdvectJob& job, const std::uint16_t* numbers, Sampling sampling, std::size_t count);
 
-/// Ours in double, on the float grid: x and q of each flake, 6 numbers; wraps x at 1 m.
+/// Ours in double, on the float grid: x and q of each flake, 6 numbers; wraps x at 1 m. Of `step`, its
+/// seed and relaxations.
 void step_in_double(const GridWind& grid, const float* numbers, double* states, const std::uint32_t* ids,
-                    std::size_t count, double dt, std::uint64_t seed, std::uint32_t number);
+                    std::size_t count, const StepParams& step, double dt, std::uint32_t number);
 
 }  // namespace spindrift::validation

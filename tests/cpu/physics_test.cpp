@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/advect.h"
+#include "core/gradient_reach.h"
 #include "core/wind.h"
 #include "worlds.h"
 
@@ -290,6 +291,34 @@ TEST(Substeps, FollowGradientAndStepAndAreBounded)
     EXPECT_EQ(substeps(1.6F, 0.1F), 2);
     EXPECT_EQ(substeps(10.0F, 0.1F), 7);
     EXPECT_EQ(substeps(1e30F, 1.0F), kMostSubsteps);
+}
+
+TEST(Relaxations, FollowTheSteepestPlaceAndAreBounded)
+{
+    EXPECT_EQ(relaxations(0, 1), 1);
+    EXPECT_EQ(relaxations(5.9, 0.1), 1);
+    EXPECT_EQ(relaxations(6.1, 0.1), 2);
+    EXPECT_EQ(relaxations(1e30, 1), kMostRelaxations);
+    World w = open_world(1, {1, 1, 1}, 1);
+    w.wind = grid_wind(5, 1, 1, {0, 0, 0}, {1, 1, 1},
+                       [](float x, float, float)
+                       {
+                           WindCell c{};
+                           c.gradient = x == 3 ? 1.5F : 0.1F;
+                           return c;
+                       });
+    EXPECT_EQ(relaxations(w), 3);
+    Wind::State later{1.0, w.wind.cells};
+    later.cells[0].gradient = 2;
+    w.wind.later = {later};
+    EXPECT_EQ(relaxations(w), 4) << "at any time";
+    w.wind.turbulent = false;
+    EXPECT_EQ(relaxations(w), 1);
+    w.wind.turbulent = true;
+    w.wind.kind = WindKind::logarithmic;
+    w.wind.friction_velocity_m_s = 2, w.wind.boundary_layer_m = 20;
+    w.size_m.z = 100, w.step_s = 10;
+    EXPECT_EQ(relaxations(w), 9);  // 3/4 u*/zi 2.5 (1.01 / 50)^(-1/4) = 0.497 1/s
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "core/gradient_reach.h"
 #include "tests/cpu/worlds.h"
 #include "tests/parity/backends.h"
 
@@ -100,6 +101,14 @@ TEST_P(EveryBackend, MovesFlakesAsTheOracleDoes)
     for (const OnLeave rule : {OnLeave::remove, OnLeave::respawn, OnLeave::wrap})
         for (const bool turbulent : {true, false})
             expect_parity(world_with_everything(6000, rule, turbulent), 40, 10);
+}
+
+TEST_P(EveryBackend, MovesFlakesAsTheOracleDoesWhereStepsAreCut)
+{
+    World world = world_with_everything(1000, OnLeave::respawn, true);
+    for (WindCell& cell : world.wind.cells) cell.gradient *= 7;
+    ASSERT_EQ(relaxations(world), 2);
+    expect_parity(world, 20, 10);
 }
 
 TEST_P(EveryBackend, MovesFlakesAsTheOracleDoesInAnalyticWinds)

@@ -77,6 +77,23 @@ TEST(WellMixed, SinusoidForAnyStep)
     }
 }
 
+/// Row 2: homogeneous air, most of which asks for four sub-steps where the rest takes one: none of it gains
+/// flakes. A step is as long as the turbulence's own time.
+TEST(WellMixed, NoSeamWhereTwoNumbersOfSubstepsMeet)
+{
+    constexpr double kSigma = 0.5, kStep = 0.1;
+    Wind wind = periodic_air(
+        100, Cutting::never, [](double) { return kSigma; }, [](double) { return 0.0; });
+    for (std::size_t i = 0; i < wind.cells.size(); ++i)
+    {
+        wind.cells[i].c0_eps = static_cast<float>(2 * kSigma * kSigma / kStep);
+        if (i % 100 < 50) wind.cells[i].gradient = 5.9F;
+    }
+    const Bins bins = mix(wind, 20000, kStep, 6, 20);
+    EXPECT_LT(bins.chi_square(), bins.chi_square_mark());
+    EXPECT_LT(bins.variance_error(), bins.variance_mark());
+}
+
 /// Row 4: sigma goes from 0.2 to 2 m/s within a twentieth of the period and back. Over the cells it is
 /// linear, and the air stays mixed; taken from the nearest cell, whose S has no slope, flakes gather where it
 /// is calm.
