@@ -120,17 +120,19 @@ TEST_P(Golden, LooksAsItDid)
                   << (kPictures / (name + ".png")).string();
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Golden,
-                         testing::Combine(testing::Values(Showing{"town", 40'000, 320, 180, 1},
-                                                          Showing{"canyon", 20'000, 320, 180, 8},
-                                                          Showing{"sheet", 4'000, 320, 180, 4},
-                                                          Showing{"calm", 4'000, 320, 180, 1, 5e-3, 2e-3},
-                                                          Showing{"whiteout", 20'000, 320, 180, 1},
-                                                          // Headlamps graze the road: a texel is long there.
-                                                          Showing{"night", 20'000, 320, 180, 4, 1.5e-2}),
-                                          testing::Values(scene::FlakePath::raster, scene::FlakePath::tiles)),
-                         [](const testing::TestParamInfo<ShowingAndPath>& tested)
-                         { return name_of(tested.param); });
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, Golden,
+    testing::Combine(testing::Values(Showing{"town", 40'000, 320, 180, 1},
+                                     Showing{"canyon", 20'000, 320, 180, 8},
+                                     Showing{"sheet", 4'000, 320, 180, 4},
+                                     Showing{"calm", 4'000, 320, 180, 1, 5e-3, 2e-3},
+                                     Showing{"whiteout", 20'000, 320, 180, 1},
+                                     // Bright edges: of lit windows, and of beacons near the eye.
+                                     Showing{"squall", 20'000, 320, 180, 2, 2e-3},
+                                     // Headlamps graze the road: a texel is long there.
+                                     Showing{"night", 20'000, 320, 180, 4, 1.5e-2}),
+                     testing::Values(scene::FlakePath::raster, scene::FlakePath::tiles)),
+    [](const testing::TestParamInfo<ShowingAndPath>& tested) { return name_of(tested.param); });
 
 }  // namespace
 }  // namespace spindrift::golden
