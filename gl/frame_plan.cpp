@@ -475,8 +475,9 @@ FramePlan plan_frame(const scene::Scene& scene, const View& view, const FrameSta
     plan.passes.push_back(plan_snow_shade(facts, plan.lit, plan.shadows));
     plan.passes.push_back(plan_scene(facts));
     plan.passes.push_back(runs("sky", "fills what the scene leaves free", "depth", "picture"));
-    const PlannedPass airlight = plan_airlight(facts);
+    PlannedPass airlight = plan_airlight(facts);
     plan.passes.push_back(plan_glow_grids(facts, view, airlight.runs, plan));
+    if (plan.lit.glow_grids) airlight.reason += ", but those that have a grid";
     plan.passes.push_back(plan_fog(facts));
     plan.passes.push_back(airlight);
     plan.passes.push_back(plan_fade(facts));

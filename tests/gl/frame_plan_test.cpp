@@ -189,6 +189,7 @@ TEST_F(PlanTest, ManyPointLampsGlowFromGrids)
     const FramePlan planned = plan();
     EXPECT_TRUE(planned.lit.glow_grids);
     EXPECT_NE(reason("glow grids").find(" of "), std::string::npos) << reason("glow grids");
+    EXPECT_NE(reason("airlight").find("but those that have a grid"), std::string::npos);
     std::int32_t next = 0;
     for (const std::int32_t grid : planned.glow_grids)
     {
