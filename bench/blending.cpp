@@ -4,10 +4,12 @@
 
 #include <cstdlib>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/drawn_row.h"
 #include "bench/drawn_scene.h"
+#include "bench/flake_field.h"
 #include "image/compare.h"
 #include "image/flip.h"
 #include "image/write.h"
@@ -35,11 +37,7 @@ struct Row
     int samples;  ///< stochastic
 };
 
-scene::Scene flakes_round_a_lamp(const Row& row, std::string_view method)
-{
-    const std::string samples =
-        method == "stochastic" ? fmt::format("samples = {}\n", row.samples) : std::string();
-    constexpr std::string_view lamp = R"([[light]]
+constexpr std::string_view kLamp = R"([[light]]
 name = "lamp"
 kind = "point"
 position_m = [20, 12, 6]
@@ -51,51 +49,22 @@ zenith_w_sr_m2 = [0.02, 0.03, 0.05]
 horizon_w_sr_m2 = [0.02, 0.03, 0.05]
 ambient_w_sr_m2 = [0.02, 0.03, 0.06]
 )";
-    constexpr std::string_view even = R"([sky]
+constexpr std::string_view kEven = R"([sky]
 zenith_w_sr_m2 = [0.1, 0.15, 0.25]
 horizon_w_sr_m2 = [0.2, 0.2, 0.2]
 ambient_w_sr_m2 = [0.6, 0.62, 0.66]
 )";
-    return scene::parse_scene(
-        fmt::format(R"([scene]
-name = "flakes round a lamp"
-about = "Blending."
-step_s = 0.02
-[domain]
-min_m = [0, 0, 0]
-max_m = [40, 40, 20]
-on_leave = "respawn"
-[particles]
-capacity = 60000
-[snow]
-rate_mm_h = 4
-weight = 1000
-[wind]
-source = "calm"
-[[emitter]]
-shape = "sky"
-centre_m = [20, 12, 6]
-size_m = [16, 20, 12]
-burst = 60000
-[ground]
-kind = "none"
-[camera]
-fov_y_deg = 50
-near_m = 0.3
-far_m = 100
-[[camera.key]]
-time_s = 0
-eye_m = [20, 1, 6]
-look_at_m = [20, 12, 6]
-{}[render]
-width_px = 640
-height_px = 360
-flake_scale = 16
-blending = "{}"
-flake_path = "{}"
-{})",
-                    row.scene == std::string_view("lamp") ? lamp : even, method, row.path, samples),
-        "flakes.toml");
+
+scene::Scene flakes_round_a_lamp(const Row& row, std::string_view method)
+{
+    FlakeField field{60000, 4,          1000,        {40, 40, 20}, {20, 12, 6}, {16, 20, 12},
+                     100,   {20, 1, 6}, {20, 12, 6}, {},           {}};
+    field.sections = row.scene == std::string_view("lamp") ? kLamp : kEven;
+    field.render = fmt::format(
+        "width_px = 640\nheight_px = 360\nflake_scale = 16\nblending = \"{}\"\nflake_path = \"{}\"\n", method,
+        row.path);
+    if (method == "stochastic") field.render += fmt::format("samples = {}\n", row.samples);
+    return field.scene();
 }
 
 struct Drawn

@@ -9,6 +9,7 @@
 
 #include "bench/drawn_row.h"
 #include "bench/drawn_scene.h"
+#include "bench/flake_field.h"
 #include "measure/timing.h"
 
 // Rows lamps-N/PATH/AIR/1M: drawing the flakes of a sky of a million, four in five of them in sight, by
@@ -44,60 +45,28 @@ std::string lamp_text(int column, int row)
 
 scene::Scene street(const Row& row, int lamps)
 {
-    std::string text = fmt::format(
-        R"([scene]
-name = "street"
-about = "A million flakes under lamps."
-step_s = 0.02
-[domain]
-min_m = [0, 0, 0]
-max_m = [160, 160, 40]
-on_leave = "respawn"
-[particles]
-capacity = 1000000
-[snow]
-rate_mm_h = 2
-weight = 50
-[wind]
-source = "calm"
-[air]
-{}
-[[emitter]]
-shape = "sky"
-centre_m = [80, 80, 10]
-size_m = [100, 140, 20]
-burst = 1000000
-[ground]
-kind = "none"
-[sky]
+    FlakeField field{1'000'000,    2,  50, {160, 160, 40}, {80, 80, 10}, {100, 140, 20}, 400, {80, 8, 6},
+                     {80, 100, 8}, {}, {}};
+    field.sections = R"([sky]
 zenith_w_sr_m2 = [0.003, 0.004, 0.008]
 horizon_w_sr_m2 = [0.016, 0.015, 0.017]
 ambient_w_sr_m2 = [0.014, 0.015, 0.02]
-[camera]
-fov_y_deg = 50
-near_m = 0.3
-far_m = 400
-[[camera.key]]
-time_s = 0
-eye_m = [80, 8, 6]
-look_at_m = [80, 100, 8]
-[render]
-flake_path = "{}"
-flake_scale = 7
-)",
-        row.air == std::string_view("clear") ? "" : "source = \"visibility\"\nvisibility_m = 150", row.path);
+)";
+    if (row.air == std::string_view("thick"))
+        field.sections += "[air]\nsource = \"visibility\"\nvisibility_m = 150\n";
     // The same lamps whatever their number, from the middle of the street outwards.
     for (int i = 0; i < lamps; ++i)
     {
         const int at = (i * (kAbreast * kRows / lamps) + kAbreast * kRows / 3) % (kAbreast * kRows);
-        text += lamp_text(at % kAbreast, at / kAbreast);
+        field.sections += lamp_text(at % kAbreast, at / kAbreast);
     }
-    return scene::parse_scene(text, "street.toml");
+    field.render = fmt::format("flake_path = \"{}\"\nflake_scale = 7\n", row.path);
+    return field.scene();
 }
 
 struct Times
 {
-    std::vector<double> draw, flakes;
+    std::vector<double> draw, flakes, grids;
     std::uint64_t drawn = 0;
     std::string driver;
 };
@@ -115,9 +84,16 @@ Times measure(const Row& row, int lamps)
     for (int round = 0; round < kRounds; ++round)
     {
         times.draw.push_back(time_ms([&] { scene.draw(); }));
-        const double air = time_ms([&] { scene.draw_passes({"fog", "airlight"}); });
-        const double all = time_ms([&] { scene.draw_passes({"fog", "airlight", "flakes", "tiles"}); });
-        times.flakes.push_back(all - air);
+        // Pixels and flakes share the grids of glow: flakes pay for all of them here.
+        const double air = time_ms([&] { scene.draw_passes({"glow grids", "fog", "airlight"}); });
+        const double all = time_ms(
+            [&] {
+                scene.draw_passes({"glow grids", "fog", "airlight", "flakes", "tiles"});
+            });
+        const double nothing = time_ms([&] { scene.draw_passes({}); });
+        const double grids = time_ms([&] { scene.draw_passes({"glow grids"}); });
+        times.grids.push_back(grids - nothing);
+        times.flakes.push_back(all - air + grids - nothing);
     }
     return times;
 }
@@ -129,6 +105,7 @@ void under_lamps(benchmark::State& state, const Row& row)
     for (auto _ : state) state.SetIterationTime(flakes * 1e-3);
     state.counters["x_one_lamp"] = flakes / quantile(one.flakes, 0.5);
     state.counters["x_dark"] = flakes / quantile(none.flakes, 0.5);
+    state.counters["grids_ms"] = quantile(many.grids, 0.5);
     state.counters["draw_ms"] = draw;
     state.counters["draw_x_one_lamp"] = draw / quantile(one.draw, 0.5);
     state.counters["drawn"] = static_cast<double>(many.drawn);
@@ -137,8 +114,8 @@ void under_lamps(benchmark::State& state, const Row& row)
 
 bool register_rows()
 {
-    for (const auto& [path, air] :
-         {std::pair{"tiles", "clear"}, std::pair{"tiles", "thick"}, std::pair{"raster", "clear"}})
+    for (const auto& [path, air] : {std::pair{"tiles", "clear"}, std::pair{"tiles", "thick"},
+                                    std::pair{"raster", "clear"}, std::pair{"raster", "thick"}})
         for (const int lamps : {1, 4, 16, 64})
         {
             const Row row{lamps, path, air};

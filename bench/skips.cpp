@@ -34,9 +34,22 @@ using namespace measure;
 namespace
 {
 
-constexpr int kWidth_px = 1280, kHeight_px = 720;
-constexpr std::uint64_t kFlakes = 100'000;
-constexpr int kSteps = 30, kRounds = 15;
+constexpr int kSteps = 30;
+
+/// How large a picture a row draws, and how often.
+struct Effort
+{
+    int width_px = 1280, height_px = 720;
+    std::uint64_t flakes = 100'000;
+    int rounds = 15;
+};
+
+/// Lamps glow on every way in `whiteout`: a quarter of the pixels and flakes, lest a row take a minute.
+Effort effort_in(std::string_view scene)
+{
+    if (scene == "whiteout") return {640, 360, 25'000, 7};
+    return {};
+}
 
 /// What is left out, and how it is done all the same.
 struct Skip
@@ -132,7 +145,8 @@ class PlannedScene
           buffers_(world_.capacity),
           backend_(cpu::make_cpu_backend(world_, buffers_.flakes(), buffers_.draw_list(), {})),
           splatter_(cpu::make_tile_splatter({})),
-          renderer_(scene_, geometry_, world_, buffers_, kWidth_px, kHeight_px, splatter_.get())
+          renderer_(scene_, geometry_, world_, buffers_, scene_.render.width_px, scene_.render.height_px,
+                    splatter_.get())
     {
         for (int i = 0; i < kSteps; ++i) backend_->step();
         time_s_ = kSteps * world_.step_s;
@@ -170,9 +184,10 @@ class PlannedScene
     static scene::Scene read(const std::string& name)
     {
         scene::SceneOverrides overrides;
-        if (name != "empty") overrides.particles = kFlakes;
-        overrides.width_px = kWidth_px;
-        overrides.height_px = kHeight_px;
+        const Effort effort = effort_in(name);
+        if (name != "empty") overrides.particles = effort.flakes;
+        overrides.width_px = effort.width_px;
+        overrides.height_px = effort.height_px;
         return scene::read_scene(SPINDRIFT_SOURCE_DIR "/scenes/" + name + ".toml", overrides);
     }
     gl::FramePlan plan() const
@@ -211,8 +226,9 @@ void saving(benchmark::State& state, const char* scene, const Skip& skip)
     skipped.rest(!skip.has_flakes);
     if (skip.has_flakes) done.rest(false);
     skip.done_plan(done.planned());
+    const int rounds = effort_in(scene).rounds;
     std::vector<double> with, without;
-    for (int round = -2; round < kRounds; ++round)
+    for (int round = -2; round < rounds; ++round)
     {
         const double a = time_ms([&] { skipped.draw(); });
         const double b = time_ms(
@@ -238,11 +254,13 @@ void empty_scene(benchmark::State& state)
     const auto context = gl::make_headless_context();
     const auto bare = [](scene::Scene& s) { s.ground.kind = scene::GroundKind::none; };
     PlannedScene scene("empty", bare, false);
-    const gl::FloatTarget light(GL_RGBA16F, kWidth_px, kHeight_px), shown(GL_RGBA8, kWidth_px, kHeight_px);
-    std::vector<unsigned char> pixels(static_cast<std::size_t>(kWidth_px) * kHeight_px * 4);
+    const Effort effort = effort_in("empty");
+    const gl::FloatTarget light(GL_RGBA16F, effort.width_px, effort.height_px),
+        shown(GL_RGBA8, effort.width_px, effort.height_px);
+    std::vector<unsigned char> pixels(static_cast<std::size_t>(effort.width_px) * effort.height_px * 4);
     const std::array<float, 4> black{0, 0, 0, 1};
     std::vector<double> first, still, floor;
-    for (int round = -2; round < kRounds; ++round)
+    for (int round = -2; round < effort.rounds; ++round)
     {
         const double a = time_ms(
             [&]

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -107,8 +106,8 @@ inline bool steps_reach_walls(const World& world)
 /// `steepest_per_s`: 1 … kMostRelaxations.
 inline int relaxations(double steepest_per_s, double h)
 {
-    return static_cast<int>(std::clamp(std::ceil(steepest_per_s * h / kRelaxationLimit), 1.0,
-                                       static_cast<double>(kMostRelaxations)));
+    const double parts = -floor(-steepest_per_s * h / kRelaxationLimit);
+    return static_cast<int>(std::clamp(parts, 1.0, static_cast<double>(kMostRelaxations)));
 }
 
 /// How often flakes relax in a step: the same everywhere and at any time, as the steepest place of the World

@@ -6,6 +6,7 @@
 
 #include "core/air.h"
 #include "core/flake.h"
+#include "core/glow_grid.h"
 #include "core/lamp_clusters.h"
 #include "core/light.h"
 #include "core/shadow.h"
@@ -65,6 +66,7 @@ struct SplatJob
     std::size_t lamp_count = 0;
     LampShadows shadows;    ///< of the first of them
     LampClusters clusters;  ///< which of the lamps count where
+    GlowGrids glow;         ///< of lamps, where air.glows
     CrystalTexels crystals;
     FlakeView flakes{};
     float shutter_s = 0;                ///< how long it is open; 0: flakes are points in time

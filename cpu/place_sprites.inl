@@ -141,6 +141,9 @@ SPINDRIFT_HD SeenLight see_through_air(const SplatJob& job, const PackLamps& lam
                 even =
                     even + lamp.intensity * (share * scattered_share(lamp.phase, -dot(lamp.direction, way)));
             }
+            else if (job.air.glows && job.glow.of(i) != nullptr)
+                glow = glow + lamp.intensity *
+                                  glow_in_grid(job.glow.of(i), lamp, path.eye, way, distance_m);
             else if (job.air.glows)
                 glow = glow + (shadowed ? airlight_to(path, lamp, distance_m, reach)
                                         : airlight_to(path, lamp, distance_m));

@@ -13,6 +13,7 @@
 #include "gl/active_lights.h"
 #include "gl/bloom_shape.h"
 #include "gl/cluster_lamps.h"
+#include "gl/glow_grid_pass.h"
 #include "gl/pass_cost.h"
 #include "scene/air.h"
 
@@ -227,6 +228,31 @@ PlannedPass plan_airlight(const Facts& facts)
                 fmt::format("{} lamp{} glow{} in the fog, {} points each", lamps, lamps == 1 ? "" : "s",
                             lamps == 1 ? "s" : "", kAirlightPoints),
                 "copy of depth, lights", "picture");
+}
+
+PlannedPass plan_glow_grids(const Facts& facts, const View& view, bool airlight, FramePlan& plan)
+{
+    constexpr const char* kName = "glow grids";
+    if (!airlight) return left_out(kName, "no lamp glows");
+    const std::size_t lamps = facts.lights.lamps.size();
+    if (lamps <= LitProgram::kMostUnrolled)
+        return left_out(kName, fmt::format("up to {} lights: each way integrates their glow itself",
+                                           LitProgram::kMostUnrolled));
+    const auto flakes =
+        static_cast<double>(facts.last.drawn > 0 ? facts.last.drawn : facts.last.counts.alive);
+    std::vector<std::int32_t> of_lamp = lamps_in_grids(facts.lights.lamps, plan.lit.shadows, view, flakes);
+    const std::size_t grids = count_grids(of_lamp);
+    if (grids == 0)
+        return left_out(kName,
+                        "each way integrates the glow itself: no point lamp with a range and without a "
+                        "shadow is seen by ways enough");
+    plan.glow_grids = std::move(of_lamp);
+    plan.lit.glow_grids = true;
+    return runs(kName,
+                fmt::format("{} of {} lights: their glow is integrated on {} ways each, and looked up by all "
+                            "others",
+                            grids, lamps, GlowGrid::kRings * GlowGrid::kTurns),
+                "lights", "glow grids");
 }
 
 std::string_view blending_name(Blending blending)
@@ -449,8 +475,11 @@ FramePlan plan_frame(const scene::Scene& scene, const View& view, const FrameSta
     plan.passes.push_back(plan_snow_shade(facts, plan.lit, plan.shadows));
     plan.passes.push_back(plan_scene(facts));
     plan.passes.push_back(runs("sky", "fills what the scene leaves free", "depth", "picture"));
+    PlannedPass airlight = plan_airlight(facts);
+    plan.passes.push_back(plan_glow_grids(facts, view, airlight.runs, plan));
+    if (plan.lit.glow_grids) airlight.reason += ", but those that have a grid";
     plan.passes.push_back(plan_fog(facts));
-    plan.passes.push_back(plan_airlight(facts));
+    plan.passes.push_back(airlight);
     plan.passes.push_back(plan_fade(facts));
     plan.passes.push_back(plan_flakes(facts));
     plan.passes.push_back(plan_tiles(facts));

@@ -65,6 +65,7 @@ struct FramePlan
     bool tone_in_tiles = false;  ///< the tiles are developed where they are blended, not by a pass of its own
     LitBy lit;                   ///< by what the lit passes are lit, maps that hold from before included
     ShadowCast shadows;          ///< what the maps depend on
+    std::vector<std::int32_t> glow_grids;  ///< by lamp the number of its grid or -1; empty: no grids
     Moving shown;
     bool still = false;  ///< nothing runs: the picture of before holds
     bool runs(std::string_view name) const;

@@ -34,6 +34,7 @@ GLuint LitProgram::for_lights(const LitBy& lit) const
     if (variant.shadows > 0) defines.push_back(shadows);
     if (variant.maps) defines.emplace_back("SHADOW_MAPS");
     if (variant.snow) defines.emplace_back("SNOW_SHADE");
+    if (variant.glow_grids) defines.emplace_back("GLOW_GRIDS");
     program = make_program(files_, defines);
     return program.name();
 }

@@ -20,6 +20,7 @@ struct LitBy
     std::size_t shadows = 0;  ///< the first so many lights cast them
     bool maps = false;        ///< of the scene
     bool snow = false;        ///< flakes dim the light
+    bool glow_grids = false;  ///< some lamps' glow is looked up (core/glow_grid.h)
     auto operator<=>(const LitBy&) const = default;
 };
 

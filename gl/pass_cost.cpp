@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/glow_grid.h"
 #include "gl/bloom_shape.h"
 
 namespace spindrift::gl
@@ -18,6 +19,7 @@ constexpr double kPair = 8;    // of the draw list
 constexpr double kPlace = 12;  // three floats of a flake
 constexpr double kId = 4;
 constexpr double kFate = 4;
+constexpr double kNode = 4;  // of a grid of glow
 constexpr double kCell = 4;  // of the snow's slices
 
 /// `elements` of so many bytes, read and written.
@@ -54,6 +56,11 @@ PassCost pass_cost(std::string_view pass, const scene::Scene& scene, const View&
     }
     if (pass == "scene") return touching(pixels, kColour + kDepth);
     if (pass == "sky") return touching(pixels, kColour + kDepth);
+    if (pass == "glow grids")
+    {
+        const double nodes = static_cast<double>(scene.lights.size()) * GlowGrid::count();
+        return touching(nodes, kNode);
+    }
     if (pass == "fog") return touching(pixels, 2 * kColour + 3 * kDepth);
     if (pass == "fade") return touching(pixels, 3 * kDepth);
     if (pass == "flakes") return touching(drawn, kPlace + kId + kPair);

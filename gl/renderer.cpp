@@ -20,6 +20,7 @@
 #include "gl/flake_pass.h"
 #include "gl/frame_constants.h"
 #include "gl/full_screen_pass.h"
+#include "gl/glow_grid_pass.h"
 #include "gl/lit_program.h"
 #include "gl/pass_timers.h"
 #include "gl/picture.h"
@@ -89,6 +90,8 @@ struct Renderer::Impl
     ClusteredLamps clusters;
     Buffer cluster_buffer;
     std::size_t cluster_room = 0;
+    GlowGridPass glow_grids;
+    GlowGridPass::Room glow_room;
     PassTimers timers;
     bool fenced;  // the host writes the flakes
     GLsync flakes_read = nullptr;
@@ -130,7 +133,8 @@ struct Renderer::Impl
     Impl& operator=(const Impl&) = delete;
 
     void upload_lights(const std::vector<Lamp<float>>& lamps);
-    void cluster_lights(const std::vector<Lamp<float>>& lamps, const View& view);
+    /// Makes room for grids of the lamps' glow, too, where the plan has them.
+    void cluster_lights(const FramePlan& plan, const std::vector<Lamp<float>>& lamps, const View& view);
     /// How often flakes get the ambient light: once; as the report prints it, for each lamp.
     std::uint32_t flake_ambient_times(std::size_t lights) const;
     FrameConstants constants(const View& view, std::size_t lights, double time_s) const;
@@ -175,21 +179,29 @@ void Renderer::Impl::upload_lights(const std::vector<Lamp<float>>& lamps)
     glBindBufferBase(GL_UNIFORM_BUFFER, kFewLights, light_buffer.name());
 }
 
-void Renderer::Impl::cluster_lights(const std::vector<Lamp<float>>& lamps, const View& view)
+void Renderer::Impl::cluster_lights(const FramePlan& plan, const std::vector<Lamp<float>>& lamps,
+                                    const View& view)
 {
     // A single lamp that ends somewhere is soon computed for nothing; few lights are all unrolled by GL.
     const bool many = lamps.size() > LitProgram::kMostUnrolled;
     clusters = many || count_bounded(lamps) > 1 ? ClusteredLamps(lamps, view) : ClusteredLamps();
+    glow_room = {};
     if (!many) return;
-    const std::vector<std::uint32_t> packed = pack(clusters.view());
-    if (packed.size() > cluster_room)
+    std::vector<std::uint32_t> packed = pack(clusters.view());
+    const bool in_grids = plan.runs("glow grids");
+    for (std::size_t i = 0; i < lamps.size(); ++i)
+        packed.push_back(static_cast<std::uint32_t>(in_grids ? plan.glow_grids[i] : -1));
+    const std::size_t grids = in_grids ? count_grids(plan.glow_grids) : 0;
+    const std::size_t words = packed.size() + grids * GlowGrid::count();
+    if (words > cluster_room)
     {
-        cluster_room = packed.size();
+        cluster_room = words;
         cluster_buffer =
             make_buffer(static_cast<GLsizeiptr>(cluster_room * 4), nullptr, GL_DYNAMIC_STORAGE_BIT);
     }
     glNamedBufferSubData(cluster_buffer.name(), 0, static_cast<GLsizeiptr>(packed.size() * 4), packed.data());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kLampClusters, cluster_buffer.name());
+    if (in_grids) glow_room = {cluster_buffer.name(), packed.size(), plan.glow_grids};
 }
 
 std::uint32_t Renderer::Impl::flake_ambient_times(std::size_t lights) const
@@ -264,6 +276,7 @@ void Renderer::Impl::draw_solid(const FramePlan& plan, const View& view, double 
 
 void Renderer::Impl::draw_air(const FramePlan& plan)
 {
+    if (plan.runs("glow grids")) timed("glow grids", [&] { glow_grids.fill(glow_room); });
     if (!plan.runs("fog")) return;
     timed("fog",
           [&]
@@ -410,7 +423,7 @@ void Renderer::draw(const FramePlan& plan, const View& view, const DrawList& fla
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     m.air.prepare(plan, view, time_s);
     m.draw_shadows(plan, lights, flakes.slots, time_s);
-    m.cluster_lights(lights, view);  // its binding is used before
+    m.cluster_lights(plan, lights, view);  // its binding is used before
     m.draw_solid(plan, view, time_s);
     m.find_velocities(plan, flakes);
     m.draw_flakes(plan, view, flakes);
@@ -419,9 +432,9 @@ void Renderer::draw(const FramePlan& plan, const View& view, const DrawList& fla
     {
         const scene::Colour& ambient = m.scene.sky.ambient;
         const auto times = static_cast<float>(m.flake_ambient_times(lights.size()));
-        m.draw_tiles(plan,
-                     {view, flakes, lights, m.clusters.view(), Vec3f{ambient.r, ambient.g, ambient.b} * times,
-                      m.air.before_flakes(), m.shadow_pass.on_host(plan.lit), time_s, m.velocities.data()});
+        m.draw_tiles(plan, {view, flakes, lights, m.clusters.view(), m.glow_grids.on_host(m.glow_room),
+                            Vec3f{ambient.r, ambient.g, ambient.b} * times, m.air.before_flakes(),
+                            m.shadow_pass.on_host(plan.lit), time_s, m.velocities.data()});
     }
     if (!in_tiles || !plan.tone_in_tiles) m.develop(plan, time_s);
 }

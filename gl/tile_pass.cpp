@@ -119,6 +119,7 @@ SplatJob TilePass::job(const Frame& frame) const
     job.lamp_count = frame.lamps.size();
     job.shadows = frame.shadows;
     job.clusters = frame.clusters;
+    job.glow = frame.glow;
     job.crystals = crystals_;
     job.flakes = buffers_.flakes();
     const DrawListView lists = buffers_.draw_list();

@@ -30,6 +30,7 @@ class TilePass
         const DrawList& list;
         const std::vector<Lamp<float>>& lamps;
         LampClusters clusters;
+        GlowGrids glow;
         Vec3f ambient;  ///< of flakes
         SplatAir air;
         LampShadows shadows;

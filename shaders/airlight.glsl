@@ -2,6 +2,10 @@
 // What lamps make of the air, as core/airlight.h has it: scattered once, eight Gauss-Legendre points over the angle at
 // which the lamp sees the way.
 
+#ifdef GLOW_GRIDS
+#include "glow_grid.glsl"
+#endif
+
 const vec4 kPlace = vec4(0.18343464, 0.52553241, 0.79666648, 0.96028986);
 const vec4 kWeight = vec4(0.36268378, 0.31370665, 0.22238103, 0.10122854);
 
@@ -130,7 +134,17 @@ vec3 even_light(AirPath path, float to, uint cluster)
 
 void add_glow(uint index, AirPath path, float to, inout vec3 sum)
 {
-    if (lights[index].place.w != 0.0) sum += airlight_to(index, path, to);
+    Light light = lights[index];
+    if (light.place.w == 0.0) return;
+#ifdef GLOW_GRIDS
+    int grid = glow_grid(index);
+    if (grid >= 0)
+    {
+        sum += light.intensity.rgb * glow_in_grid(grid, light, path.way, to);
+        return;
+    }
+#endif
+    sum += airlight_to(index, path, to);
 }
 
 // Glow of point and spot lamps on the way.

@@ -18,13 +18,17 @@ layout(std140, binding = 1) uniform FewLights { Light lights[8]; };
 #define kLightCount counts.x
 layout(std430, binding = 5) readonly buffer Lights { Light lights[]; };
 // Which of them count where; core/lamp_clusters.h has it, gl/cluster_lamps.h fills it.
+#ifdef FILLS_GRIDS
+layout(std430, binding = 7) buffer LampClusters
+#else
 layout(std430, binding = 7) readonly buffer LampClusters
+#endif
 {
     vec4 cluster_grid;       // left and lower end (px), columns and rows a px
     vec2 cluster_depth;      // log2 of the depth (m) at which slice 0 ends, slices per log2
     uint cluster_words;      // of a cluster
     uint cluster_ways;       // words before the bits of the ways to the clusters
-    uint cluster_bits[];
+    uint cluster_bits[];     // and behind them the grids of glow (glow_grid.glsl)
 };
 const vec3 kClusters = vec3(24.0, 16.0, 20.0);  // columns, rows, slices
 #endif

@@ -130,6 +130,8 @@ TEST(Defects, CalmAirIsNoDivisionByZero)
                                                                    calm_axis == 1 ? 0 : speed, 0};
             }
         scene::close_from_shear({0.1, 1000, 0.3}, flow);
+        for (const Stress<float>& t : flow.stress)
+            EXPECT_TRUE(std::isfinite(t.xx + t.xy + t.xz + t.yy + t.yz + t.zz));
         World w = empty_world(with(2000), 0.1, {12, 12, 12});
         scene::fill_wind_grid(flow, w.wind);
         for (const WindCell& cell : w.wind.cells)

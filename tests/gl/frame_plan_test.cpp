@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "gl/active_lights.h"
 
 namespace spindrift::gl
@@ -162,6 +164,41 @@ TEST_F(PlanTest, ClearAirNeedsNoFog)
     scene.air.visibility_m = 500;
     EXPECT_TRUE(plan().runs("fog"));
     EXPECT_NE(reason("fog").find("500 m (5 %)"), std::string::npos) << reason("fog");
+}
+
+TEST_F(PlanTest, ManyPointLampsGlowFromGrids)
+{
+    scene.air.source = scene::AirSource::visibility;
+    scene.air.visibility_m = 100;
+    scene.lights.clear();
+    EXPECT_NE(reason("glow grids").find("no lamp glows"), std::string::npos);
+    scene::Light lamp;
+    lamp.kind = scene::LightKind::point;
+    lamp.position_m = {view.eye.x, view.eye.y + 12.0, view.eye.z};
+    lamp.intensity = {5, 5, 5};
+    lamp.range_m = 20;
+    scene.lights.assign(8, lamp);
+    EXPECT_TRUE(plan().runs("airlight"));
+    EXPECT_FALSE(plan().runs("glow grids")) << "few lamps are integrated on each way";
+    EXPECT_FALSE(plan().lit.glow_grids);
+    scene.lights.assign(11, lamp);
+    scene.lights[3].kind = scene::LightKind::spot;
+    scene.lights[5].range_m = std::numeric_limits<double>::infinity();
+    scene.lights[7].position_m.y += 400;
+    scene.lights[7].range_m = 5;
+    const FramePlan planned = plan();
+    EXPECT_TRUE(planned.lit.glow_grids);
+    EXPECT_NE(reason("glow grids").find(" of "), std::string::npos) << reason("glow grids");
+    EXPECT_NE(reason("airlight").find("but those that have a grid"), std::string::npos);
+    std::int32_t next = 0;
+    for (const std::int32_t grid : planned.glow_grids)
+    {
+        EXPECT_TRUE(grid == -1 || grid == next);
+        next += grid >= 0;
+    }
+    EXPECT_EQ(next, 8) << "not the spot, the endless one, nor the one that nearly no way sees";
+    for (scene::Light& light : scene.lights) light.kind = scene::LightKind::spot;
+    EXPECT_FALSE(plan().runs("glow grids"));
 }
 
 TEST_F(PlanTest, OnlyLampsThatShineGlowInTheFog)

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "gl/context.h"
 #include "image/compare.h"
@@ -58,6 +62,53 @@ void PrintTo(const Case& c, std::ostream* out)
     *out << c.name;
 }
 
+SmallScene small_scene(const Case& c)
+{
+    SmallScene small = flakes_by_a_wall(c.flakes);
+    enlarge(small, c.enlargement);
+    small.scene.render.blending = c.blending;
+    small.scene.render.sprite = c.sprite;
+    if (c.lamps) light_up(small);
+    for (scene::Light& light : small.scene.lights)
+        light.shadow = c.shadows && light.kind != scene::LightKind::point;
+    small.scene.shadows.map_px = 2048;
+    if (c.air != Air::clear) thicken(small);
+    if (c.air == Air::legacy) small.scene.air.law = scene::FogLaw::legacy;
+    if (c.air == Air::legacy) small.scene.render.scattering = scene::Scattering::legacy;
+    return small;
+}
+
+const std::vector<Case>& all_cases()
+{
+    static const std::vector<Case> all{
+        {"bare", 0, 1, Blending::over, Sprite::crystal, false, Air::clear, 1e-3, 1e-3},
+        {"bare_lamps", 0, 1, Blending::over, Sprite::crystal, true, Air::clear, 1e-3, 1e-3},
+        {"over_small", 2000, 20, Blending::over, Sprite::crystal, false, Air::clear, 1e-3, 1e-3},
+        {"over_large", 2000, 60, Blending::over, Sprite::crystal, false, Air::clear, 1e-3, 1e-3},
+        {"over_lamps", 2000, 40, Blending::over, Sprite::crystal, true, Air::clear, 1e-3, 1e-3},
+        {"weighted_even", 2000, 60, Blending::weighted, Sprite::crystal, false, Air::clear, 1e-3, 1e-3},
+        {"over_discs", 2000, 40, Blending::over, Sprite::point, true, Air::clear, 1e-2, 3e-3},
+        {"additive_lamps", 2000, 40, Blending::additive, Sprite::crystal, true, Air::clear, 1e-3, 1e-3},
+        {"air", 0, 1, Blending::over, Sprite::crystal, false, Air::thick, 1e-3, 1e-3},
+        {"air_lamps", 2000, 40, Blending::over, Sprite::crystal, true, Air::thick, 1e-3, 1e-2},
+        {"air_even", 2000, 40, Blending::over, Sprite::crystal, false, Air::thick, 7e-4, 1e-3},
+        {"air_additive", 2000, 40, Blending::additive, Sprite::crystal, true, Air::thick, 1e-3, 1e-2},
+        {"air_opaque", 2000, 20, Blending::opaque, Sprite::point, true, Air::thick, 1e-3, 1e-2},
+        {"air_legacy", 2000, 40, Blending::over, Sprite::crystal, true, Air::legacy, 1.5e-3, 2e-3},
+        {"shadows", 0, 1, Blending::over, Sprite::crystal, true, Air::clear, 1e-3, 2e-3, true},
+        {"shadows_flakes", 2000, 40, Blending::over, Sprite::crystal, true, Air::clear, 1e-3, 2e-3, true},
+        {"shadows_air", 2000, 40, Blending::over, Sprite::crystal, true, Air::thick, 1e-3, 1.5e-2, true},
+        {"opaque_lamps", 2000, 20, Blending::opaque, Sprite::point, true, Air::clear, 1e-3, 3e-3}};
+    return all;
+}
+
+std::vector<Case> cases_that(const std::function<bool(const Case&)>& have)
+{
+    std::vector<Case> some;
+    std::copy_if(all_cases().begin(), all_cases().end(), std::back_inserter(some), have);
+    return some;
+}
+
 using CaseAndPath = std::tuple<Case, FlakePath>;
 
 class GlAgainstReference : public testing::TestWithParam<CaseAndPath>
@@ -74,24 +125,6 @@ class GlAgainstReference : public testing::TestWithParam<CaseAndPath>
     static void TearDownTestSuite() { context_.reset(); }
 
     static const Case& tested() { return std::get<0>(GetParam()); }
-    static FlakePath path() { return std::get<1>(GetParam()); }
-
-    static SmallScene small_scene(const Case& c)
-    {
-        SmallScene small = flakes_by_a_wall(c.flakes);
-        enlarge(small, c.enlargement);
-        small.scene.render.blending = c.blending;
-        small.scene.render.sprite = c.sprite;
-        small.scene.render.flake_path = path();
-        if (c.lamps) light_up(small);
-        for (scene::Light& light : small.scene.lights)
-            light.shadow = c.shadows && light.kind != scene::LightKind::point;
-        small.scene.shadows.map_px = 2048;
-        if (c.air != Air::clear) thicken(small);
-        if (c.air == Air::legacy) small.scene.air.law = scene::FogLaw::legacy;
-        if (c.air == Air::legacy) small.scene.render.scattering = scene::Scattering::legacy;
-        return small;
-    }
 
     /// Leaves both pictures beside the test's other output, for a person to look at.
     static void keep(const image::Image& drawn, const image::Image& truth)
@@ -113,6 +146,7 @@ TEST_P(GlAgainstReference, DrawsTheSamePicture)
 {
     const Case& c = tested();
     SmallScene small = small_scene(c);
+    small.scene.render.flake_path = std::get<1>(GetParam());
     const GlPicture drawn = draw_with_gl(small);
     EXPECT_EQ(drawn.errors, "");
     const image::Image truth = reference_picture(small);
@@ -126,61 +160,52 @@ TEST_P(GlAgainstReference, DrawsTheSamePicture)
     if (HasFailure()) keep(drawn.linear, truth);
 }
 
-TEST_P(GlAgainstReference, SeesTheFlakes)
+INSTANTIATE_TEST_SUITE_P(Scenes, GlAgainstReference,
+                         testing::Combine(testing::ValuesIn(all_cases()),
+                                          testing::Values(FlakePath::raster, FlakePath::tiles)),
+                         [](const testing::TestParamInfo<CaseAndPath>& tested)
+                         { return GlAgainstReference::name_of(tested.param); });
+
+// The comparison above means something only if what it is about matters to the picture.
+
+std::string name_of_case(const testing::TestParamInfo<Case>& tested)
 {
-    // The comparison above means something only if the flakes matter to the picture.
-    const Case& c = tested();
-    if (c.flakes == 0) GTEST_SKIP() << "a scene without flakes";
-    SmallScene small = small_scene(c);
+    return tested.param.name;
+}
+
+class ReferenceWithFlakes : public testing::TestWithParam<Case>
+{
+};
+
+TEST_P(ReferenceWithFlakes, SeesThem)
+{
+    SmallScene small = small_scene(GetParam());
     const image::Image with = reference_picture(small);
     small.flakes = {};
-    EXPECT_GT(image::compare(with, reference_picture(small), 0).relative_l2, 20 * c.most_relative_l2);
+    EXPECT_GT(image::compare(with, reference_picture(small), 0).relative_l2,
+              20 * GetParam().most_relative_l2);
 }
 
-TEST_P(GlAgainstReference, SeesTheShadows)
+INSTANTIATE_TEST_SUITE_P(Scenes, ReferenceWithFlakes,
+                         testing::ValuesIn(cases_that([](const Case& c) { return c.flakes > 0; })),
+                         name_of_case);
+
+class ReferenceWithShadows : public testing::TestWithParam<Case>
 {
-    const Case& c = tested();
-    if (!c.shadows) GTEST_SKIP() << "a scene without shadows";
-    SmallScene small = small_scene(c);
-    const auto draw = [&]
-    {
-        return reference::render(small.scene, small.geometry, small.world, small.flakes.view(),
-                                 small.flakes.x.size(), small.view, small.time_s);
-    };
-    const image::Image with = draw();
+};
+
+TEST_P(ReferenceWithShadows, SeesThem)
+{
+    SmallScene small = small_scene(GetParam());
+    const image::Image with = reference_picture(small);
     for (scene::Light& light : small.scene.lights) light.shadow = false;
-    EXPECT_GT(image::compare(with, draw(), 0).relative_l2, 10 * c.most_relative_l2);
+    EXPECT_GT(image::compare(with, reference_picture(small), 0).relative_l2,
+              10 * GetParam().most_relative_l2);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Scenes, GlAgainstReference,
-    testing::Combine(
-        testing::Values(
-            Case{"bare", 0, 1, Blending::over, Sprite::crystal, false, Air::clear, 1e-3, 1e-3},
-            Case{"bare_lamps", 0, 1, Blending::over, Sprite::crystal, true, Air::clear, 1e-3, 1e-3},
-            Case{"over_small", 2000, 20, Blending::over, Sprite::crystal, false, Air::clear, 1e-3, 1e-3},
-            Case{"over_large", 2000, 60, Blending::over, Sprite::crystal, false, Air::clear, 1e-3, 1e-3},
-            Case{"over_lamps", 2000, 40, Blending::over, Sprite::crystal, true, Air::clear, 1e-3, 1e-3},
-            Case{"weighted_even", 2000, 60, Blending::weighted, Sprite::crystal, false, Air::clear, 1e-3,
-                 1e-3},
-            Case{"over_discs", 2000, 40, Blending::over, Sprite::point, true, Air::clear, 1e-2, 3e-3},
-            Case{"additive_lamps", 2000, 40, Blending::additive, Sprite::crystal, true, Air::clear, 1e-3,
-                 1e-3},
-            Case{"air", 0, 1, Blending::over, Sprite::crystal, false, Air::thick, 1e-3, 1e-3},
-            Case{"air_lamps", 2000, 40, Blending::over, Sprite::crystal, true, Air::thick, 1e-3, 1e-2},
-            Case{"air_even", 2000, 40, Blending::over, Sprite::crystal, false, Air::thick, 7e-4, 1e-3},
-            Case{"air_additive", 2000, 40, Blending::additive, Sprite::crystal, true, Air::thick, 1e-3, 1e-2},
-            Case{"air_opaque", 2000, 20, Blending::opaque, Sprite::point, true, Air::thick, 1e-3, 1e-2},
-            Case{"air_legacy", 2000, 40, Blending::over, Sprite::crystal, true, Air::legacy, 1.5e-3, 2e-3},
-            Case{"shadows", 0, 1, Blending::over, Sprite::crystal, true, Air::clear, 1e-3, 2e-3, true},
-            Case{"shadows_flakes", 2000, 40, Blending::over, Sprite::crystal, true, Air::clear, 1e-3, 2e-3,
-                 true},
-            Case{"shadows_air", 2000, 40, Blending::over, Sprite::crystal, true, Air::thick, 1e-3, 1.5e-2,
-                 true},
-            Case{"opaque_lamps", 2000, 20, Blending::opaque, Sprite::point, true, Air::clear, 1e-3, 3e-3}),
-        testing::Values(FlakePath::raster, FlakePath::tiles)),
-    [](const testing::TestParamInfo<CaseAndPath>& tested)
-    { return GlAgainstReference::name_of(tested.param); });
+INSTANTIATE_TEST_SUITE_P(Scenes, ReferenceWithShadows,
+                         testing::ValuesIn(cases_that([](const Case& c) { return c.shadows; })),
+                         name_of_case);
 
 }  // namespace
 }  // namespace spindrift::golden
