@@ -37,7 +37,7 @@ struct GlowGrids
     const std::int32_t* of_lamp = nullptr;  ///< number of the lamp's grid, -1: it has none; null: no lamp has
     const float* nodes = nullptr;           ///< grid by grid
 
-    const float* of(std::size_t lamp) const
+    SPINDRIFT_HD const float* of(std::size_t lamp) const
     {
         if (of_lamp == nullptr || of_lamp[lamp] < 0) return nullptr;
         return nodes + static_cast<std::size_t>(of_lamp[lamp]) * GlowGrid::count();
