@@ -23,11 +23,6 @@ bool finite(const spindrift::Vec3d& v)
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-bool finite(const spindrift::Vec3f& v)
-{
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 void check(const spindrift::scene::Scene& scene)
 {
     const spindrift::Vec3d size = scene.domain.max_m - scene.domain.min_m;
