@@ -57,8 +57,16 @@ ambient_w_sr_m2 = [0.6, 0.62, 0.66]
 
 scene::Scene flakes_round_a_lamp(const Row& row, std::string_view method)
 {
-    FlakeField field{60000, 4,          1000,        {40, 40, 20}, {20, 12, 6}, {16, 20, 12},
-                     100,   {20, 1, 6}, {20, 12, 6}, {},           {}};
+    FlakeField field{.flakes = 60'000,
+                     .rate_mm_h = 4,
+                     .weight = 1000,
+                     .domain_m = {40, 40, 20},
+                     .centre_m = {20, 12, 6},
+                     .size_m = {16, 20, 12},
+                     .eye_m = {20, 1, 6},
+                     .look_at_m = {20, 12, 6},
+                     .sections = {},
+                     .render = {}};
     field.sections = row.scene == std::string_view("lamp") ? kLamp : kEven;
     field.render = fmt::format(
         "width_px = 640\nheight_px = 360\nflake_scale = 16\nblending = \"{}\"\nflake_path = \"{}\"\n", method,

@@ -45,8 +45,17 @@ std::string lamp_text(int column, int row)
 
 scene::Scene street(const Row& row, int lamps)
 {
-    FlakeField field{1'000'000,    2,  50, {160, 160, 40}, {80, 80, 10}, {100, 140, 20}, 400, {80, 8, 6},
-                     {80, 100, 8}, {}, {}};
+    FlakeField field{.flakes = 1'000'000,
+                     .rate_mm_h = 2,
+                     .weight = 50,
+                     .domain_m = {160, 160, 40},
+                     .centre_m = {80, 80, 10},
+                     .size_m = {100, 140, 20},
+                     .far_m = 400,
+                     .eye_m = {80, 8, 6},
+                     .look_at_m = {80, 100, 8},
+                     .sections = {},
+                     .render = {}};
     field.sections = R"([sky]
 zenith_w_sr_m2 = [0.003, 0.004, 0.008]
 horizon_w_sr_m2 = [0.016, 0.015, 0.017]

@@ -51,6 +51,7 @@ struct FlakeBuffer
         else if (have)
         {
             glClearNamedBufferData(buffer.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+            // Without it, what was written next was lost at times on a GPU (NVIDIA 580).
             glFinish();
             have = glGetError() == GL_NO_ERROR;
         }
